@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "scene/polygon_model.h"
+#include "scene/progress.h"
+
+namespace groundglass {
+
+// Exit statuses (docs/formats.md).
+constexpr int kExitDone = 0;
+constexpr int kExitWrongInput = 1;
+constexpr int kExitWrongUsage = 2;
+constexpr int kExitNeedsReview = 3;
+
+// What every subcommand takes.
+struct CommonOptions {
+  bool json = false;     // machine-readable result on stdout
+  bool quiet = false;    // no progress
+  bool dry_run = false;  // say what would be done, write nothing
+  int threads = 0;       // 0: every core
+  uint64_t seed = 1988;
+  std::optional<LengthUnit> unit;
+};
+
+// Adds the common flags to a subcommand.
+void AddCommonOptions(CLI::App* command, CommonOptions& options);
+
+// Runs `work` with no more than options.threads threads.
+int RunWithThreads(const CommonOptions& options, const std::function<int()>& work);
+
+// Progress on stderr: one line with rate and time left that is drawn over on a terminal, plain
+// lines elsewhere, nothing if quiet.
+Progress MakeProgress(const CommonOptions& options, const std::string& title);
+
+// Each adds its subcommand; when it has run, `exit_status` holds what main returns. One file each.
+void AddRunCommand(CLI::App& app, int& exit_status);
+void AddCheckCommand(CLI::App& app, int& exit_status);
+void AddCalibrateCommand(CLI::App& app, int& exit_status);
+void AddRegisterCommand(CLI::App& app, int& exit_status);
+void AddInvrenderCommand(CLI::App& app, int& exit_status);
+void AddRenderCommand(CLI::App& app, int& exit_status);
+void AddSynthCommand(CLI::App& app, int& exit_status);
+void AddEvaluateCommand(CLI::App& app, int& exit_status);
+void AddConvertCommand(CLI::App& app, int& exit_status);
+
+}  // namespace groundglass

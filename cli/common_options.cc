@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "cli/commands.h"
+
+namespace groundglass {
+
+void AddCommonOptions(CLI::App* command, CommonOptions& options) {
+  command->add_flag("--json", options.json, "machine-readable result on stdout");
+  command->add_flag("--quiet", options.quiet, "no progress on stderr");
+  command->add_flag("--dry-run", options.dry_run, "say what would be done, write nothing");
+  command->add_option("--threads", options.threads, "threads to use; 0: every core")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--seed", options.seed, "seed of everything that is drawn by chance")
+      ->capture_default_str();
+  command
+      ->add_option_function<std::string>(
+          "--unit",
+          [&options](const std::string& unit) {
+            options.unit = unit == "m" ? LengthUnit::kMetre : LengthUnit::kFoot;
+          },
+          "the model's unit, over what its file says")
+      ->check(CLI::IsMember({"ft", "m"}));
+}
+
+int RunWithThreads(const CommonOptions& options, const std::function<int()>& work) {
+  const unsigned threads = options.threads > 0 ? static_cast<unsigned>(options.threads)
+                                               : std::max(1u, std::thread::hardware_concurrency());
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  return work();
+}
+
+Progress MakeProgress(const CommonOptions& options, const std::string& title) {
+  if (options.quiet) return {};
+  const bool on_terminal = isatty(STDERR_FILENO) != 0;
+  const auto start = std::chrono::steady_clock::now();
+  return [=](int done, int total, const std::string& what) {
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!on_terminal) {
+      std::fprintf(stderr, "%s %d/%d %s\n", title.c_str(), done, total, what.c_str());
+      return;
+    }
+    const double rate = seconds > 0 ? done / seconds : 0;
+    const double left = rate > 0 ? (total - done) / rate : 0;
+    std::fprintf(stderr,
+                 "\r\033[K%s %d/%d %s  %.1f/s  %.0f s left",
+                 title.c_str(),
+                 done,
+                 total,
+                 what.c_str(),
+                 rate,
+                 left);
+    if (done >= total) std::fputc('\n', stderr);
+    std::fflush(stderr);
+  };
+}
+
+}  // namespace groundglass

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include <cstdio>
+#include <exception>
+
+#include "cli/commands.h"
+#include "scene/error.h"
+
+int main(int argc, char** argv) {
+  using namespace groundglass;
+  CLI::App app{
+      "Groundglass corrects hand-measured camera tags against a polygon model, and turns the\n"
+      "photographs into a textured model.",
+      "groundglass"};
+  app.set_version_flag("--version", "groundglass " GROUNDGLASS_VERSION);
+  app.require_subcommand(1);
+  int exit_status = kExitDone;
+  AddRunCommand(app, exit_status);
+  AddCheckCommand(app, exit_status);
+  AddCalibrateCommand(app, exit_status);
+  AddRegisterCommand(app, exit_status);
+  AddInvrenderCommand(app, exit_status);
+  AddRenderCommand(app, exit_status);
+  AddSynthCommand(app, exit_status);
+  AddEvaluateCommand(app, exit_status);
+  AddConvertCommand(app, exit_status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitDone : kExitWrongUsage;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "groundglass: %s\n", error.what());
+    return kExitWrongInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "groundglass: %s\n", error.what());
+    return kExitWrongInput;
+  }
+  return exit_status;
+}

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+# A room is one folder, one static library, one subject. Rooms see one another only through
+# NEEDS; tests/include_directions.cmake holds the #include lines to the same table.
+
+set(GROUNDGLASS_WARNINGS -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Werror)
+
+# groundglass_room(scene SOURCES a.cc b.cc NEEDS Eigen3::Eigen PRIVATE embree)
+# NEEDS: what a user of the room's headers needs; PRIVATE: what only its sources use.
+function(groundglass_room name)
+  cmake_parse_arguments(ROOM "" "FOLDER" "SOURCES;NEEDS;PRIVATE" ${ARGN})
+  string(REPLACE "-" "_" target_suffix ${name})
+  set(target groundglass_${target_suffix})
+  add_library(${target} STATIC ${ROOM_SOURCES})
+  add_library(groundglass::${target_suffix} ALIAS ${target})
+  target_include_directories(${target}
+    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/groundglass>)
+  target_link_libraries(${target} PUBLIC ${ROOM_NEEDS} PRIVATE ${ROOM_PRIVATE})
+  target_compile_options(${target} PRIVATE ${GROUNDGLASS_WARNINGS})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${target_suffix})
+  install(TARGETS ${target} EXPORT groundglassTargets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  file(GLOB headers ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/groundglass/${name})
+endfunction()
+
+# groundglass_test(register NEEDS groundglass::register SOURCES a_test.cc)
+# One GoogleTest program for each room; each TEST is a ctest of its own.
+function(groundglass_test room)
+  cmake_parse_arguments(T "" "" "SOURCES;NEEDS" ${ARGN})
+  string(REPLACE "-" "_" suffix ${room})
+  set(target ${suffix}_tests)
+  add_executable(${target} ${T_SOURCES})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${target} PRIVATE ${T_NEEDS} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_options(${target} PRIVATE ${GROUNDGLASS_WARNINGS})
+  target_compile_definitions(${target} PRIVATE
+    GROUNDGLASS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${target} TEST_PREFIX ${room}/ DISCOVERY_TIMEOUT 120
+                       PROPERTIES LABELS ${room})
+endfunction()
+
+function(groundglass_install_package)
+  include(CMakePackageConfigHelpers)
+  set(where ${CMAKE_INSTALL_LIBDIR}/cmake/groundglass)
+  install(EXPORT groundglassTargets NAMESPACE groundglass:: DESTINATION ${where})
+  configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/groundglassConfig.cmake.in
+    ${PROJECT_BINARY_DIR}/groundglassConfig.cmake INSTALL_DESTINATION ${where})
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/groundglassConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/groundglassConfig.cmake
+                ${PROJECT_BINARY_DIR}/groundglassConfigVersion.cmake DESTINATION ${where})
+endfunction()

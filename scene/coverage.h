@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// How much of one face the photographs show.
+struct FaceCoverage {
+  int face = -1;             // in the model, from 0
+  std::string name;
+  double area = 0;           // model's unit, squared
+  double covered_area = 0;
+  long num_texels = 0;
+  long num_covered_texels = 0;
+  double texel_size = 0;     // model's unit
+  struct Source {
+    std::string photograph;
+    long num_texels = 0;
+    double footprint = 0;    // median size of the photograph's pixel on the face, model's unit
+  };
+  std::vector<Source> sources;  // most texels first
+};
+
+struct Coverage {
+  std::vector<FaceCoverage> faces;
+  double CoveredShare() const {
+    double area = 0;
+    double covered = 0;
+    for (const FaceCoverage& face : faces) {
+      area += face.area;
+      covered += face.covered_area;
+    }
+    return area > 0 ? covered / area : 0;
+  }
+};
+
+// coverage.json (docs/coverage-json.md).
+std::string FormatCoverage(const Coverage& coverage);
+
+}  // namespace groundglass

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+namespace groundglass {
+
+// One planar polygon: indices into PolygonModel::points_in_world, counterclockwise seen from its
+// front. May be concave.
+struct Face {
+  std::vector<int> points;
+  std::string name;  // as commented in the file; may be empty
+};
+
+// Where on Earth the model stands.
+struct Georeference {
+  double latitude_deg = 0;
+  double longitude_deg = 0;
+  double height_m = 0;
+  double north_deg = 0;  // bearing of the model's north (+Y in world), clockwise from true north
+};
+
+enum class LengthUnit { kFoot, kMetre };
+double MetresPerUnit(LengthUnit unit);
+
+// The building as polygons, in `world` and in the model's own unit.
+struct PolygonModel {
+  std::vector<Eigen::Vector3d> points_in_world;
+  std::vector<Face> faces;
+  LengthUnit unit = LengthUnit::kFoot;
+  std::optional<Georeference> georeference;
+};
+
+// normal . point = offset, the normal (unit length) pointing out of the face's front.
+struct FacePlane {
+  Eigen::Vector3d normal_in_world = Eigen::Vector3d::UnitZ();
+  double offset = 0;
+};
+
+// The face's best plane by Newell's method; exact for planar faces.
+FacePlane ComputeFacePlane(const PolygonModel& model, int face);
+double ComputeFaceArea(const PolygonModel& model, int face);
+
+// The face cut into triangles of point indices (ear clipping), all with the face's own winding.
+std::vector<std::array<int, 3>> TriangulateFace(const PolygonModel& model, int face);
+
+struct Box {
+  Eigen::Vector3d min = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max = Eigen::Vector3d::Zero();
+  double Diagonal() const { return (max - min).norm(); }
+  Eigen::Vector3d Center() const { return (min + max) / 2; }
+};
+Box ComputeBounds(const PolygonModel& model);
+
+// "face 12 (east wall)", for messages; `face` counts from 0, people from 1.
+std::string DescribeFace(const PolygonModel& model, int face);
+
+}  // namespace groundglass

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "scene/camera.h"
+#include "scene/view_tag.h"
+
+namespace groundglass {
+
+// The free numbers of one photograph, in this order, in the tag's own units: position in `site`
+// (model's unit), yaw, pitch and roll (degrees), view angle (degrees), aspect, shift (fraction of
+// the frame's width) and k1.
+constexpr int kNumCameraParameters = 11;
+constexpr std::array<std::string_view, kNumCameraParameters> kCameraParameterNames = {
+    "x", "y", "z", "yaw", "pitch", "roll", "v", "a", "shift_x", "shift_y", "k1"};
+using CameraParameters = Eigen::Matrix<double, kNumCameraParameters, 1>;
+using CameraCovariance = Eigen::Matrix<double, kNumCameraParameters, kNumCameraParameters>;
+
+CameraParameters ParametersFromTag(const ViewTag& tag);
+// The tag with these numbers; its look-at point moves along the new axis, staying at the measured
+// distance. k2, sigmas and name are kept from `measured`.
+ViewTag TagFromParameters(const CameraParameters& parameters, const ViewTag& measured);
+// The standard deviations of the tag's numbers, the look-at point's pulled back through the axis.
+TagDeviations TagDeviationsFromCovariance(const CameraParameters& parameters,
+                                          const CameraCovariance& covariance,
+                                          const ViewTag& measured);
+
+enum class Verdict { kAccepted, kReview, kRejected };
+std::string_view VerdictName(Verdict verdict);
+
+// What became of one photograph.
+struct Registration {
+  std::string name;
+  int width_px = 0;
+  int height_px = 0;
+  Verdict verdict = Verdict::kRejected;
+  std::vector<std::string> reasons;  // why not accepted; which direction is free; the rival
+  ViewTag measured;
+  ViewTag corrected;                 // equals `measured` when rejected
+  CameraParameters sigmas = CameraParameters::Zero();  // posterior standard deviations
+  CameraParameters prior_sigmas = CameraParameters::Zero();
+  CameraCovariance covariance = CameraCovariance::Zero();
+  std::vector<std::string> undetermined;  // parameters no better known than before
+  int num_samples = 0;               // edge samples with a match
+  double rms_px = 0;                 // of their residuals
+  double score_nats = 0;             // above zero: better than chance
+  double margin_nats = 0;            // over the best rival
+  double moved_px = 0;               // mean displacement of the model's visible edges by the correction
+
+  Camera MeasuredCamera() const { return CameraFromTag(measured, width_px, height_px); }
+  Camera CorrectedCamera() const { return CameraFromTag(corrected, width_px, height_px); }
+};
+
+}  // namespace groundglass

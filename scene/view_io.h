@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scene/view_tag.h"
+
+namespace groundglass {
+
+// Reads a .view file (docs/view-file.md). Throws Error naming file, line and key.
+ViewTag ReadView(const std::filesystem::path& file);
+// The same for text already in memory; `name` stands for the file in messages.
+ViewTag ParseView(const std::string& text, const std::filesystem::path& name);
+
+// A fresh view file: one "key value" pair a line, defaults left out.
+std::string FormatView(const ViewTag& tag, const std::string& comment = "");
+
+// The hand-written file with its numbers replaced in place: comments, order and spacing survive,
+// new keys are appended one to a line, and each changed pair's comment gains
+// "(measured 232, now +-0.03)". Parsing the result gives `corrected` to the last bit.
+// deviations: one standard deviation of each corrected number, 0 where unknown.
+std::string FormatCorrectedView(const std::string& measured_text,
+                                const ViewTag& corrected,
+                                const TagDeviations& deviations);
+
+// Reads a whole text file; Error if it cannot be opened.
+std::string ReadTextFile(const std::filesystem::path& file);
+
+}  // namespace groundglass

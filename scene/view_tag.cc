@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/view_tag.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "scene/frames.h"
+
+namespace groundglass {
+
+double GetTagValue(const ViewTag& tag, TagKey key) {
+  switch (key) {
+    case TagKey::kX: return tag.position_in_site.x();
+    case TagKey::kY: return tag.position_in_site.y();
+    case TagKey::kZ: return tag.position_in_site.z();
+    case TagKey::kI: return tag.lookat_in_site.x();
+    case TagKey::kJ: return tag.lookat_in_site.y();
+    case TagKey::kK: return tag.lookat_in_site.z();
+    case TagKey::kA: return tag.aspect;
+    case TagKey::kV: return tag.view_angle_deg;
+    case TagKey::kRoll: return tag.roll_deg;
+    case TagKey::kShiftX: return tag.shift_x;
+    case TagKey::kShiftY: return tag.shift_y;
+    case TagKey::kK1: return tag.k1;
+    case TagKey::kK2: return tag.k2;
+  }
+  return 0;
+}
+
+void SetTagValue(ViewTag& tag, TagKey key, double value) {
+  switch (key) {
+    case TagKey::kX: tag.position_in_site.x() = value; return;
+    case TagKey::kY: tag.position_in_site.y() = value; return;
+    case TagKey::kZ: tag.position_in_site.z() = value; return;
+    case TagKey::kI: tag.lookat_in_site.x() = value; return;
+    case TagKey::kJ: tag.lookat_in_site.y() = value; return;
+    case TagKey::kK: tag.lookat_in_site.z() = value; return;
+    case TagKey::kA: tag.aspect = value; return;
+    case TagKey::kV: tag.view_angle_deg = value; return;
+    case TagKey::kRoll: tag.roll_deg = value; return;
+    case TagKey::kShiftX: tag.shift_x = value; return;
+    case TagKey::kShiftY: tag.shift_y = value; return;
+    case TagKey::kK1: tag.k1 = value; return;
+    case TagKey::kK2: tag.k2 = value; return;
+  }
+}
+
+Camera CameraFromTag(const ViewTag& tag, int width_px, int height_px) {
+  assert(!FindTagFault(tag));
+  Camera camera;
+  camera.width_px = width_px;
+  camera.height_px = height_px;
+  const double width = width_px;
+  const double height = height_px;
+  camera.focal_x_px = (width / 2) / std::tan(RadiansFromDegrees(tag.view_angle_deg) / 2);
+  camera.focal_y_px = camera.focal_x_px * tag.aspect * height / width;
+  camera.center_x_px = width / 2 + tag.shift_x * width;
+  camera.center_y_px = height / 2 + tag.shift_y * camera.focal_y_px / camera.focal_x_px * width;
+  camera.k1 = tag.k1;
+  camera.k2 = tag.k2;
+
+  const Eigen::Vector3d position = WorldFromSite(tag.position_in_site);
+  const Eigen::Vector3d forward = (WorldFromSite(tag.lookat_in_site) - position).normalized();
+  const Eigen::Vector3d level_right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
+  const Eigen::Vector3d level_down = forward.cross(level_right);
+  const double cos_roll = std::cos(RadiansFromDegrees(tag.roll_deg));
+  const double sin_roll = std::sin(RadiansFromDegrees(tag.roll_deg));
+  Eigen::Matrix3d& rotation = camera.cam_from_world.rotation;
+  rotation.row(0) = cos_roll * level_right + sin_roll * level_down;
+  rotation.row(1) = -sin_roll * level_right + cos_roll * level_down;
+  rotation.row(2) = forward;
+  camera.cam_from_world.translation = -(rotation * position);
+  return camera;
+}
+
+ViewTag TagFromCamera(const Camera& camera, double lookat_distance) {
+  ViewTag tag;
+  const Eigen::Vector3d position = camera.PositionInWorld();
+  const Eigen::Vector3d forward = camera.ForwardInWorld();
+  tag.position_in_site = SiteFromWorld(position);
+  tag.lookat_in_site = SiteFromWorld(position + lookat_distance * forward);
+  tag.view_angle_deg =
+      DegreesFromRadians(2 * std::atan(camera.width_px / (2 * camera.focal_x_px)));
+  tag.aspect = camera.focal_y_px * camera.width_px / (camera.focal_x_px * camera.height_px);
+  const Eigen::Vector3d level_right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
+  const Eigen::Vector3d level_down = forward.cross(level_right);
+  const Eigen::Vector3d right = camera.cam_from_world.rotation.row(0).transpose();
+  tag.roll_deg = DegreesFromRadians(std::atan2(right.dot(level_down), right.dot(level_right)));
+  tag.shift_x = camera.center_x_px / camera.width_px - 0.5;
+  tag.shift_y = (camera.center_y_px - camera.height_px / 2.0) * camera.focal_x_px /
+                (camera.focal_y_px * camera.width_px);
+  tag.k1 = camera.k1;
+  tag.k2 = camera.k2;
+  return tag;
+}
+
+std::optional<TagFault> FindTagFault(const ViewTag& tag) {
+  for (int index = 0; index < kNumTagKeys; ++index) {
+    if (!std::isfinite(GetTagValue(tag, static_cast<TagKey>(index)))) {
+      return TagFault{std::string(kTagKeyNames[index]), "must be a finite number"};
+    }
+  }
+  if (!(tag.view_angle_deg > 0 && tag.view_angle_deg < 180)) {
+    return TagFault{"v", "view angle must lie between 0 and 180 degrees"};
+  }
+  if (!(tag.aspect > 0)) return TagFault{"a", "aspect (width / height) must be above 0"};
+  const Eigen::Vector3d axis = tag.lookat_in_site - tag.position_in_site;
+  const double distance = axis.norm();
+  if (!(distance > 0)) {
+    return TagFault{"i", "look-at point is the camera's own position, so it gives no direction"};
+  }
+  // 1e-6 rad from the vertical: closer than any notebook, and yaw has no meaning there.
+  if (axis.head<2>().norm() < 1e-6 * distance) {
+    return TagFault{"k", "view is straight up or down, where yaw has no meaning"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace groundglass
