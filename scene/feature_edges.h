@@ -25,6 +25,8 @@ struct ModelEdge {
   int first_face = -1;
   int second_face = -1;  // -1 for a boundary
   Kind kind = Kind::kBoundary;
+  // Angle between the two faces' normals; 0 when coplanar, 180 for a boundary.
+  double angle_deg = 180;
 };
 
 struct FeatureEdgeOptions {
@@ -35,6 +37,7 @@ struct FeatureEdgeOptions {
 };
 
 // All lines that some view may show: shallow creases among them, since they may be silhouettes.
+// Order follows the faces, and is the same on every machine.
 std::vector<ModelEdge> FindModelEdges(const PolygonModel& model);
 
 // A part of an edge that a camera sees.
