@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
