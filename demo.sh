@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Part of Groundglass.
+# Installs what is missing (Debian 12 or later), builds the program, and runs the main job on the
+# bundled brick scene:   ./demo.sh [OUTPUT FOLDER]       default: out/demo
+set -euo pipefail
+
+from=$PWD
+cd "$(dirname "${BASH_SOURCE[0]}")"
+out=out/demo
+if (($#)); then
+  case $1 in
+    -*) echo "./demo.sh [OUTPUT FOLDER]" >&2; exit 2 ;;
+    /*) out=$1 ;;
+    *) out=$from/$1 ;;
+  esac
+fi
+scene=datasets-synthetic/brick
+
+# run COMMAND...: status 3 says that some photographs want a person's eye, which is no failure.
+run() {
+  local status=0
+  "$@" || status=$?
+  if ((status != 0 && status != 3)); then exit "$status"; fi
+}
+
+./install-packages.sh build
+echo "== Building"
+if [[ ! -f build/release/CMakeCache.txt ]]; then  # else as test.sh left it
+  launcher=()
+  if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+  cmake --log-level=WARNING --preset release "${launcher[@]}" \
+    -DGROUNDGLASS_TESTS=OFF -DGROUNDGLASS_BENCH=OFF
+fi
+cmake --build --preset release --target groundglass
+groundglass=build/release/cli/groundglass
+
+echo "== Correcting the tags and baking the texture"
+run "$groundglass" run "$scene" -o "$out"
+
+echo "== Rendering views that nobody photographed"
+mkdir -p "$out/novel"
+for view in "$scene"/truth/novel/*.view; do
+  "$groundglass" render "$out/model.glb" --view "$view" \
+    -o "$out/novel/$(basename "$view" .view).png"
+done
+
+echo "== Comparing with the truth"
+run "$groundglass" evaluate "$out" --truth "$scene/truth"
+
+out=$(cd "$out" && pwd)
+cat <<END
+
+Done. Please look at
+  $out/report.html     the whole story
+  $out/overlays/       the model's edges on each photograph: measured in grey, corrected in colour
+  $out/novel/          the textured model from new viewpoints; $PWD/$scene/truth/novel/ has the truth
+  $out/model.glb       the textured model, for any glTF viewer
+  $out/views/          the corrected tags
+END

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Part of Groundglass.
+# Installs what is missing (Debian 12 or later), builds, and runs every test.
+set -euo pipefail
+
+usage() {
+  cat <<END
+./test.sh [OPTIONS] [-- CTEST ARGUMENTS]
+  (none)       build with optimisation, run every test
+  --sanitize   the same under AddressSanitizer and UndefinedBehaviorSanitizer
+  --long       every test, longer fuzzing, the benchmarks, then --sanitize
+  --tidy       build under clang-tidy; warnings are errors
+  --format     check the formatting only; nothing is built
+  --no-install leave the machine's packages alone
+  -- ARGS      handed to ctest, e.g.  -- -R register/
+END
+}
+
+cd "$(dirname "${BASH_SOURCE[0]}")"
+preset=release
+long=no
+install=yes
+while (($#)); do
+  case $1 in
+    --sanitize) preset=dev ;;
+    --long) long=yes ;;
+    --tidy) preset=tidy ;;
+    --format) preset=format ;;
+    --no-install) install=no ;;
+    -h | --help) usage; exit 0 ;;
+    --) shift; break ;;
+    *) usage >&2; exit 2 ;;
+  esac
+  shift
+done
+
+packages() { if [[ $install == yes ]]; then ./install-packages.sh "$@"; fi; }
+
+if [[ $preset == format ]]; then
+  packages format
+  echo "== clang-format"
+  find scene calibrate register invrender viewer datasets-synthetic cli tests \
+    -name '*.h' -o -name '*.cc' | sort | xargs clang-format --dry-run -Werror
+  echo "The formatting is as .clang-format says."
+  exit 0
+fi
+
+# configure_and_build PRESET: with ccache where the machine has it.
+configure_and_build() {
+  local launcher=()
+  if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+  echo "== Configuring and building ($1)"
+  cmake --log-level=WARNING --preset "$1" "${launcher[@]}"
+  cmake --build --preset "$1"
+}
+
+if [[ $preset == tidy ]]; then
+  packages build test tidy
+  configure_and_build tidy
+  echo "clang-tidy found nothing."
+  exit 0
+fi
+
+packages build test
+if [[ $long == yes ]]; then export GROUNDGLASS_FUZZ_ROUNDS=200000; fi
+configure_and_build "$preset"
+echo "== Testing ($preset)"
+ctest --preset "$preset" -j "$(nproc)" "$@"
+
+if [[ $long == yes && $preset == release ]]; then
+  echo "== Benchmarks"
+  find build/release/tests/bench -maxdepth 1 -type f -name '*bench*' -executable | sort |
+    while read -r bench; do "$bench"; done
+  configure_and_build dev
+  echo "== Testing (dev)"
+  ctest --preset dev -j "$(nproc)" "$@"
+fi

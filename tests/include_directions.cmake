@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+# Part of Groundglass.
+# Holds every #include of the rooms to the directions of the architecture page:
+#   cmake -D TREE=<source folder> -P include_directions.cmake
+# Prints one line for each forbidden arrow and fails if there is one.
+
+cmake_minimum_required(VERSION 3.25)
+
+# Which rooms a room may include besides itself. Tests may include anything.
+set(may_include_scene)
+set(may_include_calibrate scene)
+set(may_include_register scene)
+set(may_include_invrender scene)
+set(may_include_viewer scene)
+set(may_include_datasets-synthetic scene calibrate register invrender viewer)
+set(may_include_cli scene calibrate register invrender viewer datasets-synthetic)
+set(rooms scene calibrate register invrender viewer datasets-synthetic cli)
+
+# Third parties by the first part of their path, and the files (regular expression on the path in
+# the tree) that may include them.
+set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI assimp
+    nlohmann tbb stb sys)
+set(owners_Eigen "\\.(h|cc)$")
+set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|datasets-synthetic)/.*\\.cc$")
+set(owners_OpenImageIO "^(scene/image_io|invrender/.*)\\.cc$")
+set(owners_embree3 "^scene/visibility\\.cc$")
+set(owners_ceres "^(calibrate|register|invrender)/.*\\.cc$")
+set(owners_apriltag "^calibrate/.*\\.cc$")
+set(owners_GL "^viewer/.*\\.cc$")
+set(owners_EGL "^viewer/.*\\.cc$")
+set(owners_CLI "^cli/.*\\.(h|cc)$")
+set(owners_assimp "^scene/.*_io\\.cc$")
+set(owners_nlohmann "\\.cc$")
+set(owners_tbb "\\.cc$")
+set(owners_stb "\\.cc$")
+set(owners_sys "\\.cc$")
+# The same for headers without a folder; any other such header is C++'s or the system's.
+set(bare_third_parties tiny_gltf.h stb_image.h stb_image_write.h)
+set(owners_tiny_gltf.h "^scene/.*_io\\.cc$")
+set(owners_stb_image.h "^NOBODY$")        # OpenImageIO reads and writes images
+set(owners_stb_image_write.h "^NOBODY$")
+
+set(faults 0)
+foreach(room IN LISTS rooms)
+  file(GLOB_RECURSE sources RELATIVE ${TREE} ${TREE}/${room}/*.h ${TREE}/${room}/*.cc)
+  foreach(source IN LISTS sources)
+    file(STRINGS ${TREE}/${source} includes REGEX "^[ \t]*#[ \t]*include")
+    foreach(include IN LISTS includes)
+      set(rule "")
+      if(include MATCHES "\"([^\"/]+)/[^\"]*\"")
+        set(target ${CMAKE_MATCH_1})
+        if(NOT target IN_LIST rooms)
+          set(rule "${target} is no room")
+        elseif(NOT target STREQUAL room AND NOT target IN_LIST may_include_${room})
+          set(rule "${room} may not include ${target}")
+        endif()
+      elseif(include MATCHES "\"")
+        set(rule "name the room: \"${room}/...\"")
+      elseif(include MATCHES "<([^>/]+)/[^>]*>")
+        set(target ${CMAKE_MATCH_1})
+        if(NOT target IN_LIST third_parties)
+          set(rule "nobody owns <${target}/...>: add it to the architecture page and to this test")
+        elseif(NOT source MATCHES "${owners_${target}}")
+          set(rule "<${target}/...> belongs to ${owners_${target}}")
+        endif()
+      elseif(include MATCHES "<([^>]+)>")
+        set(target ${CMAKE_MATCH_1})
+        if(target IN_LIST bare_third_parties AND NOT source MATCHES "${owners_${target}}")
+          set(rule "<${target}> belongs to ${owners_${target}}")
+        endif()
+      endif()
+      if(rule)
+        math(EXPR faults "${faults} + 1")
+        message("${source}: ${include}: ${rule}")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+if(faults)
+  message(FATAL_ERROR "${faults} includes go against the architecture page")
+endif()
