@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/camera.h"
+#include "scene/polygon_model.h"
+#include "scene/registration.h"
+
+#include <optional>
+
+namespace groundglass {
+
+// How far the model's points move in the picture between two cameras: over all points in front of
+// both and, for the true one, inside the frame; hidden points count.
+struct VertexError {
+  double mean_px = 0;
+  double max_px = 0;
+  int num_points = 0;  // 0: no point in the frame, and no error to speak of
+};
+VertexError MeasureVertexError(const PolygonModel& model,
+                               const Camera& true_camera,
+                               const Camera& found_camera);
+
+// A vertex error above this makes an accepted photograph a wrong one: 3 px at 640 wide.
+double WrongAcceptedThresholdPx(int width_px);
+
+// One camera against its truth, in the tag's own numbers.
+struct CameraErrors {
+  VertexError vertex;
+  double position = 0;       // distance, model's unit
+  double direction_deg = 0;  // angle between the optical axes
+  // Found minus true, in the order and units of kCameraParameterNames.
+  CameraParameters parameters = CameraParameters::Zero();
+};
+CameraErrors MeasureCameraErrors(const PolygonModel& model,
+                                 const Camera& true_camera,
+                                 const Camera& found_camera);
+
+// Whether errors are as large as a covariance claims.
+struct Calibration {
+  double mahalanobis_squared = 0;
+  int degrees_of_freedom = 0;  // parameters with a variance
+  bool is_inside_95 = false;   // of the covariance's ellipsoid
+};
+// Nothing if the covariance is zero. Parameters without variance are left out.
+std::optional<Calibration> MeasureCalibration(const CameraParameters& errors,
+                                              const CameraCovariance& covariance);
+
+}  // namespace groundglass

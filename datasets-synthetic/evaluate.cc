@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "datasets-synthetic/evaluate.h"
+
+#include "scene/error.h"
+#include "scene/image_io.h"
+#include "scene/registration_io.h"
+#include "scene/textured_model_io.h"
+#include "scene/visibility.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+
+ErrorSummary Summarise(std::vector<double> errors_px) {
+  ErrorSummary summary;
+  summary.count = static_cast<int>(errors_px.size());
+  if (errors_px.empty()) return summary;
+  std::sort(errors_px.begin(), errors_px.end());
+  for (const double error_px : errors_px) summary.mean_px += error_px / summary.count;
+  const size_t half = errors_px.size() / 2;
+  summary.median_px =
+      errors_px.size() % 2 == 1 ? errors_px[half] : (errors_px[half - 1] + errors_px[half]) / 2;
+  summary.max_px = errors_px.back();
+  return summary;
+}
+
+void EvaluateCameras(const fs::path& found,
+                     const Truth& truth,
+                     const PolygonModel& model,
+                     Evaluation& evaluation) {
+  std::map<std::string, Camera> camera_of_name;
+  for (const NamedCamera& camera : ReadFoundCameras(found, truth)) {
+    camera_of_name[camera.name] = camera.camera;
+  }
+  std::map<std::string, Registration> registration_of_name;
+  if (fs::exists(found / "registration.json")) {
+    for (const Registration& registration : ReadRegistrations(found / "registration.json")) {
+      registration_of_name[registration.name] = registration;
+    }
+  }
+  std::vector<double> all_px;
+  std::vector<double> accepted_px;
+  for (const NamedCamera& true_camera : truth.cameras) {
+    const auto camera = camera_of_name.find(true_camera.name);
+    if (camera == camera_of_name.end()) {
+      evaluation.missing.push_back(true_camera.name);
+      continue;
+    }
+    PhotographEvaluation photograph;
+    photograph.name = true_camera.name;
+    photograph.errors = MeasureCameraErrors(model, true_camera.camera, camera->second);
+    const double error_px = photograph.errors.vertex.mean_px;
+    all_px.push_back(error_px);
+    const auto registration = registration_of_name.find(true_camera.name);
+    if (registration != registration_of_name.end()) {
+      photograph.verdict = registration->second.verdict;
+      if (photograph.verdict != Verdict::kRejected) {
+        photograph.sigmas = registration->second.sigmas;
+        photograph.calibration =
+            MeasureCalibration(photograph.errors.parameters, registration->second.covariance);
+      }
+      if (photograph.verdict == Verdict::kAccepted) {
+        accepted_px.push_back(error_px);
+        photograph.is_wrong_accepted =
+            error_px > WrongAcceptedThresholdPx(true_camera.camera.width_px);
+      }
+    }
+    evaluation.num_wrong_accepted += photograph.is_wrong_accepted;
+    evaluation.num_calibrated += photograph.calibration.has_value();
+    evaluation.num_inside_95 += photograph.calibration && photograph.calibration->is_inside_95;
+    evaluation.photographs.push_back(photograph);
+  }
+  if (evaluation.photographs.empty()) {
+    throw Error(found, "no camera here has the name of one in " + truth.folder.string());
+  }
+  evaluation.all = Summarise(all_px);
+  evaluation.accepted = Summarise(accepted_px);
+}
+
+void EvaluateMasks(const fs::path& found,
+                   const Truth& truth,
+                   const PolygonModel& model,
+                   Evaluation& evaluation) {
+  if (truth.masks_model_folder.empty() || !fs::is_directory(found / "faces")) return;
+  evaluation.faces.resize(model.faces.size());
+  for (const NamedCamera& camera : truth.cameras) {
+    const fs::path file = found / "faces" / (camera.name + ".png");
+    if (!fs::exists(file)) continue;
+    AddMaskOverlaps(ReadLabels(truth.masks_model_folder / (camera.name + ".png")),
+                    ReadLabels(file),
+                    evaluation.faces);
+  }
+}
+
+// The pages' records of where each texel came from lie beside the model.
+void ReadProvenance(const fs::path& found, TexturedModel& model) {
+  for (size_t page = 0; page < model.pages.size(); ++page) {
+    const fs::path file = found / ("provenance_" + std::to_string(page) + ".png");
+    if (model.pages[page].provenance.Empty() && fs::exists(file)) {
+      model.pages[page].provenance = ReadLabels(file);
+    }
+  }
+}
+
+void EvaluateNovelViews(const fs::path& found,
+                        const Truth& truth,
+                        const EvaluateOptions& options,
+                        Evaluation& evaluation) {
+  const fs::path file = found / "model.glb";
+  if (!options.render || truth.novel_views.empty() || !fs::exists(file)) return;
+  TexturedModel model = ReadTexturedModel(file);
+  ReadProvenance(found, model);
+  for (const NovelView& view : truth.novel_views) {
+    const Image8 true_srgb8 = ReadSrgb8(view.image_file);
+    const Camera camera = CameraFromTag(view.tag, true_srgb8.width, true_srgb8.height);
+    evaluation.novel_views.push_back({view.name,
+                                      ComparePictures(true_srgb8,
+                                                      options.render(model, camera),
+                                                      ReadLabels(view.faces_file),
+                                                      CoveredPixels(model, camera))});
+  }
+}
+
+// Texture coordinates of a point on a face, by the affine map that its corners fix.
+struct TexelMap {
+  Eigen::Matrix<double, 2, 4> texel_from_world = Eigen::Matrix<double, 2, 4>::Zero();
+  bool has_texture = false;
+};
+
+TexelMap FitTexelMap(const PolygonModel& model, int face, const FaceTexture& texture) {
+  TexelMap map;
+  const std::vector<int>& corners = model.faces[face].points;
+  if (texture.page < 0 || texture.corners_texel.size() != corners.size()) return map;
+  // The corners lie in a plane, so the least-norm solution about their centre is the map in it.
+  const int n = static_cast<int>(corners.size());
+  Eigen::MatrixXd points(n, 3);
+  Eigen::MatrixXd texels(n, 2);
+  for (int i = 0; i < n; ++i) {
+    points.row(i) = model.points_in_world[corners[i]];
+    texels.row(i) = texture.corners_texel[i];
+  }
+  const Eigen::RowVector3d point_center = points.colwise().mean();
+  const Eigen::RowVector2d texel_center = texels.colwise().mean();
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(points.rowwise() - point_center,
+                                        Eigen::ComputeThinU | Eigen::ComputeThinV);
+  svd.setThreshold(1e-6);
+  const Eigen::MatrixXd linear = svd.solve(texels.rowwise() - texel_center);
+  map.texel_from_world.leftCols<3>() = linear.transpose();
+  map.texel_from_world.col(3) =
+      texel_center.transpose() - linear.transpose() * point_center.transpose();
+  map.has_texture = true;
+  return map;
+}
+
+}  // namespace
+
+Image8 CoveredPixels(const TexturedModel& model, const Camera& camera) {
+  std::vector<TexelMap> maps;
+  for (size_t face = 0; face < model.model.faces.size(); ++face) {
+    maps.push_back(face < model.faces.size()
+                       ? FitTexelMap(model.model, static_cast<int>(face), model.faces[face])
+                       : TexelMap());
+  }
+  const Visibility visibility(model.model);
+  const Eigen::Vector3d position = camera.PositionInWorld();
+  Image8 covered(camera.width_px, camera.height_px, 1);
+  tbb::parallel_for(0, camera.height_px, [&](int y) {
+    for (int x = 0; x < camera.width_px; ++x) {
+      const Eigen::Vector3d direction = UnprojectToWorld(camera, {x + 0.5, y + 0.5});
+      const auto hit = visibility.FirstHit(position, direction);
+      if (!hit || !maps[hit->face].has_texture) continue;
+      const TexturePage& page = model.pages[model.faces[hit->face].page];
+      if (page.provenance.Empty()) {
+        *covered.At(x, y) = 255;
+        continue;
+      }
+      const Eigen::Vector3d point = position + hit->distance * direction;
+      const Eigen::Vector2d texel = maps[hit->face].texel_from_world * point.homogeneous();
+      const int u = std::clamp(static_cast<int>(texel.x()), 0, page.provenance.width - 1);
+      const int v = std::clamp(static_cast<int>(texel.y()), 0, page.provenance.height - 1);
+      if (*page.provenance.At(u, v) != kProvenanceNone) *covered.At(x, y) = 255;
+    }
+  });
+  return covered;
+}
+
+Evaluation Evaluate(const fs::path& found,
+                    const Truth& truth,
+                    const PolygonModel& model,
+                    const EvaluateOptions& options) {
+  Evaluation evaluation;
+  EvaluateCameras(found, truth, model, evaluation);
+  EvaluateMasks(found, truth, model, evaluation);
+  EvaluateNovelViews(found, truth, options, evaluation);
+  return evaluation;
+}
+
+}  // namespace groundglass

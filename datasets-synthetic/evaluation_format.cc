@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "datasets-synthetic/evaluate.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace groundglass {
+namespace {
+
+// printf into a string.
+[[gnu::format(printf, 1, 2)]] std::string Printed(const char* format, ...) {
+  char buffer[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(buffer, sizeof buffer, format, arguments);
+  va_end(arguments);
+  return buffer;
+}
+
+// "0.123+-0.045", or the error alone where nothing is claimed.
+std::string WithSigma(double error, const std::optional<double>& sigma, int decimals) {
+  std::string text = Printed("%.*f", decimals, error);
+  if (sigma) text += Printed("+-%.*f", decimals, *sigma);
+  return text;
+}
+
+struct Sigmas {
+  std::optional<double> position, direction_deg, roll_deg, view_angle_deg, shift;
+};
+
+// The claimed deviations of the table's columns; distances combine their axes, and the yaw counts
+// in full, since buildings are looked at nearly level.
+Sigmas CombineSigmas(const PhotographEvaluation& photograph) {
+  Sigmas sigmas;
+  if (!photograph.sigmas) return sigmas;
+  const CameraParameters& s = *photograph.sigmas;
+  sigmas.position = s.head<3>().norm();
+  sigmas.direction_deg = std::hypot(s[3], s[4]);
+  sigmas.roll_deg = s[5];
+  sigmas.view_angle_deg = s[6];
+  sigmas.shift = std::hypot(s[8], s[9]);
+  return sigmas;
+}
+
+std::string FormatSummary(const char* title, const ErrorSummary& summary) {
+  return Printed("%s: mean %.2f px, median %.2f px, max %.2f px (%d photographs)\n",
+                 title,
+                 summary.mean_px,
+                 summary.median_px,
+                 summary.max_px,
+                 summary.count);
+}
+
+nlohmann::ordered_json JsonFromSummary(const ErrorSummary& summary) {
+  return {{"count", summary.count},
+          {"mean_px", summary.mean_px},
+          {"median_px", summary.median_px},
+          {"max_px", summary.max_px}};
+}
+
+nlohmann::ordered_json JsonFromParameters(const CameraParameters& parameters) {
+  nlohmann::ordered_json json;
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    json[std::string(kCameraParameterNames[i])] = parameters[i];
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonModel& model) {
+  const char* unit = model.unit == LengthUnit::kFoot ? "ft" : "m";
+  std::string text = Printed("%-10s %9s %9s %16s %16s %16s %16s %18s  %s\n",
+                             "photograph",
+                             "vertex px",
+                             "max px",
+                             Printed("position %s", unit).c_str(),
+                             "direction deg",
+                             "roll deg",
+                             "v deg",
+                             "shift",
+                             "verdict");
+  for (const PhotographEvaluation& photograph : evaluation.photographs) {
+    const CameraErrors& errors = photograph.errors;
+    const Sigmas sigmas = CombineSigmas(photograph);
+    std::string verdict = photograph.verdict ? std::string(VerdictName(*photograph.verdict)) : "-";
+    if (photograph.is_wrong_accepted) verdict += " WRONG";
+    if (photograph.calibration && !photograph.calibration->is_inside_95) {
+      verdict += " (outside its 95 %)";
+    }
+    text += Printed(
+        "%-10s %9.2f %9.2f %16s %16s %16s %16s %18s  %s\n",
+        photograph.name.c_str(),
+        errors.vertex.mean_px,
+        errors.vertex.max_px,
+        WithSigma(errors.position, sigmas.position, 3).c_str(),
+        WithSigma(errors.direction_deg, sigmas.direction_deg, 3).c_str(),
+        WithSigma(errors.parameters[5], sigmas.roll_deg, 3).c_str(),
+        WithSigma(errors.parameters[6], sigmas.view_angle_deg, 3).c_str(),
+        WithSigma(std::hypot(errors.parameters[8], errors.parameters[9]), sigmas.shift, 4).c_str(),
+        verdict.c_str());
+  }
+  text += FormatSummary("vertex error", evaluation.all);
+  const bool has_verdicts =
+      std::any_of(evaluation.photographs.begin(),
+                  evaluation.photographs.end(),
+                  [](const PhotographEvaluation& p) { return p.verdict.has_value(); });
+  if (has_verdicts) {
+    text += FormatSummary("accepted", evaluation.accepted);
+    text += Printed("wrong accepted: %d\n", evaluation.num_wrong_accepted);
+  }
+  if (evaluation.num_calibrated > 0) {
+    text += Printed("truth inside the 95 %% ellipsoid: %d of %d\n",
+                    evaluation.num_inside_95,
+                    evaluation.num_calibrated);
+  }
+  for (const std::string& name : evaluation.missing) text += "no camera for " + name + "\n";
+  if (!evaluation.faces.empty()) {
+    double sum = 0;
+    int count = 0;
+    int worst = -1;
+    for (size_t i = 0; i < evaluation.faces.size(); ++i) {
+      if (evaluation.faces[i].union_px == 0) continue;
+      sum += evaluation.faces[i].IntersectionOverUnion();
+      ++count;
+      if (worst < 0 || evaluation.faces[i].IntersectionOverUnion() <
+                           evaluation.faces[worst].IntersectionOverUnion()) {
+        worst = static_cast<int>(i);
+      }
+    }
+    if (count > 0) {
+      text += Printed("face masks: mean IoU %.4f over %d faces, worst %.4f for %s\n",
+                      sum / count,
+                      count,
+                      evaluation.faces[worst].IntersectionOverUnion(),
+                      DescribeFace(model, worst).c_str());
+    }
+  }
+  for (const NovelViewEvaluation& view : evaluation.novel_views) {
+    text += Printed("novel view %s: PSNR %.2f dB, SSIM %.4f, coverage %.1f %%\n",
+                    view.name.c_str(),
+                    view.errors.psnr_db,
+                    view.errors.ssim,
+                    100 * view.errors.coverage);
+  }
+  return text;
+}
+
+std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonModel& model) {
+  nlohmann::ordered_json json;
+  json["unit"] = model.unit == LengthUnit::kFoot ? "ft" : "m";
+  json["photographs"] = nlohmann::ordered_json::array();
+  for (const PhotographEvaluation& photograph : evaluation.photographs) {
+    nlohmann::ordered_json entry;
+    entry["name"] = photograph.name;
+    if (photograph.verdict) entry["verdict"] = std::string(VerdictName(*photograph.verdict));
+    entry["wrong_accepted"] = photograph.is_wrong_accepted;
+    entry["vertex_error_px"] = photograph.errors.vertex.mean_px;
+    entry["vertex_error_max_px"] = photograph.errors.vertex.max_px;
+    entry["num_points"] = photograph.errors.vertex.num_points;
+    entry["position_error"] = photograph.errors.position;
+    entry["direction_error_deg"] = photograph.errors.direction_deg;
+    entry["errors"] = JsonFromParameters(photograph.errors.parameters);
+    if (photograph.sigmas) entry["sigmas"] = JsonFromParameters(*photograph.sigmas);
+    if (photograph.calibration) {
+      entry["mahalanobis_squared"] = photograph.calibration->mahalanobis_squared;
+      entry["degrees_of_freedom"] = photograph.calibration->degrees_of_freedom;
+      entry["inside_95"] = photograph.calibration->is_inside_95;
+    }
+    json["photographs"].push_back(entry);
+  }
+  json["missing"] = evaluation.missing;
+  json["all"] = JsonFromSummary(evaluation.all);
+  json["accepted"] = JsonFromSummary(evaluation.accepted);
+  json["num_wrong_accepted"] = evaluation.num_wrong_accepted;
+  json["num_inside_95"] = evaluation.num_inside_95;
+  json["num_calibrated"] = evaluation.num_calibrated;
+  json["faces"] = nlohmann::ordered_json::array();
+  for (size_t i = 0; i < evaluation.faces.size(); ++i) {
+    if (evaluation.faces[i].union_px == 0) continue;
+    json["faces"].push_back({{"face", i + 1},
+                             {"name", model.faces[i].name},
+                             {"iou", evaluation.faces[i].IntersectionOverUnion()},
+                             {"union_px", evaluation.faces[i].union_px}});
+  }
+  json["novel_views"] = nlohmann::ordered_json::array();
+  for (const NovelViewEvaluation& view : evaluation.novel_views) {
+    json["novel_views"].push_back({{"name", view.name},
+                                   {"psnr_db", view.errors.psnr_db},
+                                   {"ssim", view.errors.ssim},
+                                   {"coverage", view.errors.coverage},
+                                   {"num_pixels", view.errors.num_pixels},
+                                   {"gain", view.errors.gain}});
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace groundglass
