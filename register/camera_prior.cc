@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/camera_prior.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/error.h"
+
+namespace groundglass {
+
+void PriorOptions::Check() const {
+  const auto require_positive = [](double value, const char* name) {
+    if (!(value > 0 && std::isfinite(value))) {
+      throw Error(std::string("option ") + name + ": a standard deviation must be above 0");
+    }
+  };
+  require_positive(position_m, "sigma-position");
+  require_positive(height_m, "sigma-height");
+  require_positive(lookat_m, "sigma-lookat");
+  require_positive(roll_deg, "sigma-roll");
+  require_positive(view_angle_share, "sigma-v");
+  require_positive(aspect_share, "sigma-a");
+  require_positive(shift, "sigma-shift");
+  require_positive(k1, "sigma-k1");
+  for (const std::string& name : lock) {
+    if (name == "shift") continue;
+    if (std::find(kCameraParameterNames.begin(), kCameraParameterNames.end(), name) ==
+        kCameraParameterNames.end()) {
+      throw Error("option lock: no parameter is called '" + name +
+                  "'; there are x y z yaw pitch roll v a shift shift_x shift_y k1");
+    }
+  }
+}
+
+CameraPrior MakeCameraPrior(const ViewTag& tag,
+                            LengthUnit unit,
+                            const std::optional<Lens>& lens,
+                            const PriorOptions& options) {
+  const double units_per_metre = 1 / MetresPerUnit(unit);
+  const double distance = (tag.lookat_in_site - tag.position_in_site).norm();
+  const auto length_sigma = [&](const std::optional<double>& noted, double metres, double share) {
+    return noted.value_or(std::max(metres * units_per_metre, share * distance));
+  };
+  const double position =
+      length_sigma(tag.sigmas.position, options.position_m, options.position_share);
+  const double height = length_sigma(tag.sigmas.height, options.height_m, options.height_share);
+  const double lookat = length_sigma(tag.sigmas.lookat, options.lookat_m, options.lookat_share);
+
+  CameraPrior prior;
+  prior.mean = ParametersFromTag(tag);
+  CameraCovariance covariance = CameraCovariance::Zero();
+
+  // Position and direction through the measured points: finite differences of the tag itself.
+  Eigen::Matrix<double, 5, 6> by_measured;
+  for (int column = 0; column < 6; ++column) {
+    const double step = 1e-5 * distance;
+    ViewTag ahead = tag;
+    ViewTag behind = tag;
+    (column < 3 ? ahead.position_in_site[column] : ahead.lookat_in_site[column - 3]) += step;
+    (column < 3 ? behind.position_in_site[column] : behind.lookat_in_site[column - 3]) -= step;
+    Eigen::Matrix<double, 5, 1> change =
+        (ParametersFromTag(ahead) - ParametersFromTag(behind)).head<5>();
+    change[3] = std::remainder(change[3], 360.0);
+    by_measured.col(column) = change / (2 * step);
+  }
+  Eigen::Matrix<double, 6, 1> measured_sigmas;
+  measured_sigmas << position, position, height, lookat, lookat, lookat;
+  const Eigen::Matrix<double, 5, 6> scaled = by_measured * measured_sigmas.asDiagonal();
+  covariance.topLeftCorner<5, 5>() = scaled * scaled.transpose();
+
+  double roll = tag.sigmas.roll_deg.value_or(options.roll_deg);
+  double view_angle = tag.sigmas.view_angle_deg.value_or(options.view_angle_share * tag.view_angle_deg);
+  double aspect = tag.sigmas.aspect.value_or(options.aspect_share * tag.aspect);
+  double shift_x = tag.sigmas.shift.value_or(options.shift);
+  double shift_y = shift_x;
+  double k1 = tag.sigmas.k1.value_or(options.k1);
+  if (lens) {
+    prior.mean[6] = lens->view_angle_deg;
+    prior.mean[7] = lens->aspect;
+    prior.mean[8] = lens->shift_x;
+    prior.mean[9] = lens->shift_y;
+    prior.mean[10] = lens->k1;
+    // A scale error of the mount changes the tangent of half the view angle.
+    const double view_angle_by_scale =
+        DegreesFromRadians(std::sin(RadiansFromDegrees(lens->view_angle_deg)));
+    const double slide = options.digital ? 0 : 1;
+    view_angle = std::hypot(lens->sigma_view_angle_deg,
+                            slide * options.slide_scale_share * view_angle_by_scale);
+    aspect = std::hypot(lens->sigma_aspect, slide * options.slide_aspect_share * lens->aspect);
+    shift_x = std::hypot(lens->sigma_shift_x, slide * options.shift);
+    shift_y = std::hypot(lens->sigma_shift_y, slide * options.shift);
+    k1 = lens->sigma_k1;
+  }
+  const double independent[6] = {roll, view_angle, aspect, shift_x, shift_y, k1};
+  for (int i = 0; i < 6; ++i) covariance(5 + i, 5 + i) = independent[i] * independent[i];
+
+  for (const std::string& name : options.lock) {
+    for (int i = 0; i < kNumCameraParameters; ++i) {
+      const bool named = kCameraParameterNames[i] == name ||
+                         (name == "shift" && (i == 8 || i == 9));
+      if (!named) continue;
+      covariance.row(i).setZero();
+      covariance.col(i).setZero();
+    }
+  }
+
+  // A square root that allows locked parameters: of the correlations, so that units do not matter.
+  prior.sigmas = covariance.diagonal().cwiseSqrt();
+  CameraParameters inverse_sigmas = CameraParameters::Zero();
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (prior.sigmas[i] > 0) inverse_sigmas[i] = 1 / prior.sigmas[i];
+  }
+  const CameraCovariance correlation =
+      inverse_sigmas.asDiagonal() * covariance * inverse_sigmas.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<CameraCovariance> eigen(correlation);
+  prior.root = prior.sigmas.asDiagonal() * eigen.eigenvectors() *
+               eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  return prior;
+}
+
+}  // namespace groundglass

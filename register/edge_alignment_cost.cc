@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/edge_alignment_cost.h"
+
+#include <cmath>
+
+#include "register/parameter_projection.h"
+
+namespace groundglass {
+
+EdgeAlignmentCost::EdgeAlignmentCost(const std::vector<AlignedSample>& samples,
+                                     const CameraPrior& prior,
+                                     double k2,
+                                     int width_px,
+                                     int height_px)
+    : samples_(samples), prior_(prior), k2_(k2), width_px_(width_px), height_px_(height_px) {
+  set_num_residuals(static_cast<int>(samples.size()));
+  mutable_parameter_block_sizes()->push_back(kNumCameraParameters);
+}
+
+bool EdgeAlignmentCost::Evaluate(double const* const* parameters,
+                                 double* residuals,
+                                 double** jacobians) const {
+  using Jacobian =
+      Eigen::Matrix<double, Eigen::Dynamic, kNumCameraParameters, Eigen::RowMajor>;
+  const Eigen::Map<const CameraParameters> whitened(parameters[0]);
+  const ParameterProjection projection(
+      prior_.mean + prior_.root * whitened, k2_, width_px_, height_px_);
+  const auto count = static_cast<Eigen::Index>(samples_.size());
+  Eigen::Map<Eigen::VectorXd> r(residuals, count);
+  const bool with_jacobian = jacobians && jacobians[0];
+  Eigen::Map<Jacobian> by_whitened(with_jacobian ? jacobians[0] : nullptr,
+                                   with_jacobian ? count : 0,
+                                   kNumCameraParameters);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const AlignedSample& sample = samples_[i];
+    const auto projected = projection.Project(sample.point_in_world);
+    if (!projected) return false;
+    const double weight = std::sqrt(sample.precision);
+    r[i] = weight * (sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px);
+    if (with_jacobian) {
+      by_whitened.row(i) = weight * (sample.normal.transpose() * projected->jacobian) * prior_.root;
+    }
+  }
+
+  // Whiten each edge's run of samples: (I + a a^T)^(-1/2) = I - g a a^T.
+  for (Eigen::Index start = 0; start < count;) {
+    Eigen::Index end = start;
+    double squared = 0;
+    double along_r = 0;
+    Eigen::Matrix<double, 1, kNumCameraParameters> along_jacobian;
+    along_jacobian.setZero();
+    const auto a = [&](Eigen::Index i) {
+      return std::sqrt(samples_[i].precision) * samples_[i].bias_px;
+    };
+    for (; end < count && samples_[end].edge == samples_[start].edge; ++end) {
+      squared += a(end) * a(end);
+      along_r += a(end) * r[end];
+      if (with_jacobian) along_jacobian += a(end) * by_whitened.row(end);
+    }
+    if (squared > 1e-12) {
+      const double g = (1 - 1 / std::sqrt(1 + squared)) / squared;
+      for (Eigen::Index i = start; i < end; ++i) {
+        r[i] -= g * a(i) * along_r;
+        if (with_jacobian) by_whitened.row(i) -= g * a(i) * along_jacobian;
+      }
+    }
+    start = end;
+  }
+  return true;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <ceres/cost_function.h>
+
+#include <vector>
+
+#include "register/camera_prior.h"
+#include "register/edge_samples.h"
+
+namespace groundglass {
+
+// One edge sample with what the photograph says of it.
+struct AlignedSample {
+  Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
+  int edge = -1;
+  Eigen::Vector2d origin_px = Eigen::Vector2d::Zero();  // where offset 0 lies
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
+  double offset_px = 0;   // where the photograph's edge lies, from origin along normal
+  double precision = 0;   // 1 / variance of offset_px, 1 / px^2; 0 for an outlier
+  double bias_px = 0;     // one sigma of the whole model edge's own offset here
+};
+
+// Distances between projected model edges and the photograph's edges, for all samples of one
+// photograph:
+//   r_i = sqrt(precision_i) (normal_i . (project(point_i; mean + root u) - origin_i) - offset_i)
+// An offset of its own for each model edge (windows are recessed, eaves overhang), with prior sigma
+// bias_i, is integrated out: samples of one edge have covariance I + a a^T with
+// a_i = sqrt(precision_i) bias_i, and the residuals are whitened by its inverse square root.
+// Samples must come sorted by edge. Block: u, 11 whitened parameters. Residuals: one per sample,
+// without unit.
+class EdgeAlignmentCost : public ceres::CostFunction {
+ public:
+  EdgeAlignmentCost(const std::vector<AlignedSample>& samples,
+                    const CameraPrior& prior,
+                    double k2,
+                    int width_px,
+                    int height_px);
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override;
+
+ private:
+  const std::vector<AlignedSample>& samples_;
+  const CameraPrior& prior_;
+  double k2_;
+  int width_px_;
+  int height_px_;
+};
+
+}  // namespace groundglass

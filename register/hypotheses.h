@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <vector>
+
+#include "register/camera_prior.h"
+#include "register/edge_evidence.h"
+#include "register/edge_samples.h"
+
+namespace groundglass {
+
+struct HypothesisOptions {
+  // How far from the prior's mean to look, in its standard deviations.
+  double reach_sigmas = 3;
+  // Resolution of the search: the frame's width in cells.
+  int width_cells = 320;
+  // Steps of the grid, in cells, root mean square over the edge samples.
+  double step_cells = 2.5;
+  // At most this many grid points; the step grows to fit.
+  int max_grid_points = 60000;
+  // Distinct starts to return, besides the tag itself.
+  int max_starts = 8;
+  // Starts nearer than this to a better one are the same, in cells.
+  double distinct_cells = 1.5;
+};
+
+// A start for refinement: whitened parameters (CameraPrior) and its coarse log score.
+struct Hypothesis {
+  CameraParameters whitened = CameraParameters::Zero();
+  double score = 0;
+};
+
+// Scores the prior's leading image-space directions (mostly shift, turn and scale) on a grid over
+// orientation-binned soft gradient maps at low resolution, climbs from the best points, and
+// returns the best distinct ones, best first, the tag itself (all zero) last.
+std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
+                                       const CameraPrior& prior,
+                                       const ViewTag& measured,
+                                       int width_px,
+                                       int height_px,
+                                       const EdgeEvidence& evidence,
+                                       const HypothesisOptions& options);
+
+}  // namespace groundglass

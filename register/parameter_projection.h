@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Dense>
+
+#include "scene/registration.h"
+
+namespace groundglass {
+
+// Projection as a function of a photograph's free numbers, with its derivatives:
+//   point_in_cam = R(yaw, pitch, roll) (point - position),  (x, y) = point_in_cam.xy / z,
+//   s = 1 + k1 r2 + k2 r2^2,  image = (f_x s x + c_x, f_y s y + c_y),
+// f, c from view angle, aspect and shift as docs/frames.md says. Units of CameraParameters.
+class ParameterProjection {
+ public:
+  ParameterProjection(const CameraParameters& parameters, double k2, int width_px, int height_px);
+
+  struct Result {
+    Eigen::Vector2d image_px;
+    // d image_px / d parameters, px per parameter's own unit.
+    Eigen::Matrix<double, 2, kNumCameraParameters> jacobian;
+    // Pixels that one model unit across the line of sight spans there.
+    double px_per_unit;
+  };
+  // Nothing for a point behind the camera.
+  std::optional<Result> Project(const Eigen::Vector3d& point_in_world) const;
+
+ private:
+  Eigen::Matrix3d rotation_;
+  Eigen::Matrix3d rotation_by_yaw_;
+  Eigen::Matrix3d rotation_by_pitch_;
+  Eigen::Matrix3d rotation_by_roll_;
+  Eigen::Vector3d position_in_world_;
+  double focal_x_px_;
+  double focal_y_px_;
+  double center_x_px_;
+  double center_y_px_;
+  double focal_x_by_view_angle_;
+  double focal_y_by_focal_x_;
+  double focal_y_by_aspect_;
+  double center_y_by_aspect_;
+  double center_y_by_shift_;
+  double width_px_;
+  double k1_;
+  double k2_;
+};
+
+}  // namespace groundglass

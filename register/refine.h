@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <vector>
+
+#include "register/camera_prior.h"
+#include "register/edge_evidence.h"
+#include "register/edge_samples.h"
+
+namespace groundglass {
+
+struct RefineOptions {
+  // The search range starts at this share of the prior's 3 sigma and shrinks by this factor a
+  // step, down to final_range_px.
+  double start_sigmas = 0.25;
+  double shrink = 0.6;
+  double final_range_px = 2.0;
+  // Edge samples: how dense, and how far apart they must be to count as independent.
+  double spacing_px = 4;
+  double vote_length_px = 20;
+  // Candidates for a sample, and how far their gradient may turn from the sample's normal.
+  int max_candidates = 8;
+  double gate_deg = 25;
+  // Share of samples whose edge the photograph does not show.
+  double outlier_share = 0.15;
+  // One sigma of how far a model edge may lie from the building's, metres.
+  double edge_offset_m = 0.037;
+  // The least noise of an edge's position that is believed, px.
+  double min_noise_px = 0.3;
+};
+
+// What refinement found from one start.
+struct Refinement {
+  CameraParameters whitened = CameraParameters::Zero();
+  // Of the whitened parameters, with model bias and residual spread included.
+  CameraCovariance covariance = CameraCovariance::Identity();
+  std::vector<EdgeSample> samples;  // as visible from the refined camera
+  int num_matched = 0;              // samples with a match
+  double noise_px = 0;              // spread of the matched residuals
+  bool has_converged = false;
+};
+
+// Aligns the model's edges with the photograph's, from a start in whitened parameters: edge
+// candidates as a robust mixture whose width is annealed with the search range (graduated
+// non-convexity), the prior as residuals, each model edge with a marginalised offset.
+Refinement RefineFrom(const CameraParameters& start,
+                      const EdgeModel& edge_model,
+                      const EdgeEvidence& evidence,
+                      const CameraPrior& prior,
+                      const ViewTag& measured,
+                      int width_px,
+                      int height_px,
+                      const RefineOptions& options);
+
+}  // namespace groundglass

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "register/camera_prior.h"
+#include "register/edge_samples.h"
+#include "register/hypotheses.h"
+#include "register/refine.h"
+#include "register/score.h"
+#include "scene/image.h"
+#include "scene/lens.h"
+#include "scene/registration.h"
+
+namespace groundglass {
+
+struct RegisterOptions {
+  PriorOptions prior;
+  HypothesisOptions hypotheses;
+  RefineOptions refine;
+  ScoreOptions score;
+
+  // Photographs wider than this are registered at this width: edges of buildings are no sharper.
+  int max_width_px = 1600;
+  // A solution this far from the best one is another solution, px at a width of 1200.
+  double rival_distance_px = 2.5;
+  // The best solution must score this much above its best rival, nats.
+  double min_margin_nats = 60;
+  // No parameter may end further than this from its prior, in the prior's sigmas.
+  double max_prior_sigmas = 3.5;
+
+  void Check() const;  // throws Error naming the first field out of range
+};
+
+// Corrects one photograph's tag against the model's edges.
+// grey8: the photograph, 1 channel. ignore: same size, non-zero where it is no evidence; may be
+// empty. Not converging is a result (verdict, reasons), not an error.
+Registration RegisterPhotograph(const std::string& name,
+                                const Image8& grey8,
+                                const Image8& ignore,
+                                const ViewTag& measured,
+                                const std::optional<Lens>& lens,
+                                const EdgeModel& edge_model,
+                                const RegisterOptions& options);
+
+}  // namespace groundglass

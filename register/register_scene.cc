@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/register_scene.h"
+
+#include <tbb/parallel_for.h>
+
+#include <mutex>
+
+#include "scene/error.h"
+#include "scene/image_io.h"
+
+namespace groundglass {
+namespace {
+
+// The photograph's mask as registration takes it, 1 channel; empty if there is none.
+Image8 ReadIgnoreMask(const Photograph& photograph) {
+  if (!photograph.mask_file) return {};
+  const Image16 codes = ReadLabels(*photograph.mask_file);
+  if (codes.width != photograph.size.width || codes.height != photograph.size.height) {
+    throw Error(*photograph.mask_file,
+                "mask is " + std::to_string(codes.width) + "x" + std::to_string(codes.height) +
+                    ", but its photograph is " + std::to_string(photograph.size.width) + "x" +
+                    std::to_string(photograph.size.height));
+  }
+  Image8 ignore(codes.width, codes.height, 1);
+  for (size_t i = 0; i < codes.values.size(); ++i) ignore.values[i] = codes.values[i] >= 128;
+  return ignore;
+}
+
+}  // namespace
+
+std::vector<Registration> RegisterScene(const Scene& scene,
+                                        const std::optional<Lens>& lens,
+                                        const RegisterOptions& options,
+                                        const Progress& progress) {
+  options.Check();
+  const EdgeModel edge_model(scene.model);
+  const int total = static_cast<int>(scene.photographs.size());
+  std::vector<Registration> registrations(scene.photographs.size());
+  std::mutex mutex;
+  int done = 0;
+  tbb::parallel_for(0, total, [&](int index) {
+    const Photograph& photograph = scene.photographs[index];
+    registrations[index] = RegisterPhotograph(photograph.name,
+                                              ReadGrey8(photograph.image_file),
+                                              ReadIgnoreMask(photograph),
+                                              photograph.tag,
+                                              lens,
+                                              edge_model,
+                                              options);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) {
+      progress(done,
+               total,
+               photograph.name + " " + std::string(VerdictName(registrations[index].verdict)));
+    }
+  });
+  return registrations;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/verdict.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace groundglass {
+namespace {
+
+template <typename... Args>
+std::string Format(const char* format, Args... args) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
+
+}  // namespace
+
+void JudgeRegistration(const Solution& best,
+                       const Solution* rival,
+                       double rival_distance_px,
+                       const CameraPrior& prior,
+                       const RegisterOptions& options,
+                       Registration& registration) {
+  const CameraParameters change = prior.root * best.refinement.whitened;
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    // Less than a tenth narrower than before: this photograph says nothing about it.
+    if (prior.sigmas[i] > 0 && registration.sigmas[i] > 0.9 * prior.sigmas[i]) {
+      registration.undetermined.emplace_back(kCameraParameterNames[i]);
+    }
+  }
+
+  registration.verdict = Verdict::kAccepted;
+  const auto lower_to = [&](Verdict verdict, const std::string& reason) {
+    if (verdict > registration.verdict) registration.verdict = verdict;
+    registration.reasons.push_back(reason);
+  };
+  if (best.edge_score <= 0) {
+    lower_to(Verdict::kRejected,
+             Format("the model's edges meet the photograph's no better than by chance "
+                    "(score %.0f nats)",
+                    best.edge_score));
+  }
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (!(prior.sigmas[i] > 0)) continue;
+    const double sigmas = std::abs(change[i]) / prior.sigmas[i];
+    if (sigmas > options.max_prior_sigmas) {
+      lower_to(Verdict::kReview,
+               Format("%s would move by %.3g, %.1f of its standard deviations",
+                      kCameraParameterNames[i].data(),
+                      change[i],
+                      sigmas));
+    }
+  }
+  if (rival && registration.margin_nats < options.min_margin_nats) {
+    lower_to(Verdict::kReview,
+             Format("a rival %.1f px away fits almost as well (margin %.0f nats)",
+                    rival_distance_px,
+                    registration.margin_nats));
+  }
+  if (!best.refinement.has_converged) lower_to(Verdict::kReview, "refinement did not settle");
+}
+
+}  // namespace groundglass

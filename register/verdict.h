@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "register/camera_prior.h"
+#include "register/refine.h"
+#include "register/register_photograph.h"
+#include "scene/registration.h"
+
+namespace groundglass {
+
+// One refined start with its score.
+struct Solution {
+  Refinement refinement;
+  double edge_score = 0;  // nats, ScoreAlignment
+
+  // The prior's log density joins the edges' score.
+  double TotalScore() const { return edge_score - 0.5 * refinement.whitened.squaredNorm(); }
+};
+
+// Writes verdict, reasons and the undetermined parameters into a registration whose figures are
+// filled in. rival: the best solution elsewhere, if any, and how far away it lies.
+void JudgeRegistration(const Solution& best,
+                       const Solution* rival,
+                       double rival_distance_px,
+                       const CameraPrior& prior,
+                       const RegisterOptions& options,
+                       Registration& registration);
+
+}  // namespace groundglass
