@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/polygon_model.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "scene/polygon_model.h"
 
 namespace groundglass {
 
@@ -20,6 +20,8 @@ struct ModelReading {
 // Throws Error naming file, line and face.
 ModelReading ReadOsu(const std::filesystem::path& file);
 ModelReading ParseOsu(const std::string& text, const std::filesystem::path& name);
+// Every fault that ParseOsu could throw, one line each; empty if the text is valid.
+std::vector<std::string> FindOsuFaults(const std::string& text, const std::filesystem::path& name);
 // Shortest digits that read back exactly; names and unit as comments.
 std::string FormatOsu(const PolygonModel& model);
 

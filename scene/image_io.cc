@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/image_io.h"
+
+#include "scene/atomic_file.h"
+#include "scene/error.h"
+#include "scene/text.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <memory>
+
+namespace groundglass {
+namespace {
+
+// Both directions are tabulated at 2^16 steps and interpolated: within 1e-7 of the formula, and
+// fast enough for every texel.
+constexpr int kTableSteps = 65536;
+
+double ExactLinearFromSrgb(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+double ExactSrgbFromLinear(double linear) {
+  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+std::vector<float> MakeTable(double (*function)(double)) {
+  std::vector<float> table(kTableSteps + 1);
+  for (int i = 0; i <= kTableSteps; ++i) {
+    table[i] = static_cast<float>(function(static_cast<double>(i) / kTableSteps));
+  }
+  return table;
+}
+
+float Interpolate(const std::vector<float>& table, float value) {
+  const float position = value * kTableSteps;
+  const int step = static_cast<int>(position);
+  if (step >= kTableSteps) return table[kTableSteps];
+  const float fraction = position - static_cast<float>(step);
+  return table[step] + fraction * (table[step + 1] - table[step]);
+}
+
+// An image of either side longer than this is a damaged header, not a photograph.
+constexpr int kLongestSide = 1 << 17;
+constexpr double kMostPixels = 4e9;
+
+// Where an oriented pixel comes from in the file's raster (EXIF's eight orientations).
+struct Orientation {
+  bool swaps_sides = false;
+  bool flips_x = false;  // of the file's columns
+  bool flips_y = false;
+};
+
+Orientation OrientationFromExif(int code) {
+  switch (code) {
+    case 2:
+      return {false, true, false};
+    case 3:
+      return {false, true, true};
+    case 4:
+      return {false, false, true};
+    case 5:
+      return {true, false, false};
+    case 6:
+      return {true, false, true};
+    case 7:
+      return {true, true, true};
+    case 8:
+      return {true, true, false};
+    default:
+      return {};
+  }
+}
+
+template <typename T>
+Raster<T> Oriented(Raster<T> stored, int exif_code) {
+  const Orientation orientation = OrientationFromExif(exif_code);
+  if (!orientation.swaps_sides && !orientation.flips_x && !orientation.flips_y) return stored;
+  const int width = orientation.swaps_sides ? stored.height : stored.width;
+  const int height = orientation.swaps_sides ? stored.width : stored.height;
+  Raster<T> oriented(width, height, stored.channels);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      int from_x = orientation.swaps_sides ? y : x;
+      int from_y = orientation.swaps_sides ? x : y;
+      if (orientation.flips_x) from_x = stored.width - 1 - from_x;
+      if (orientation.flips_y) from_y = stored.height - 1 - from_y;
+      std::copy_n(stored.At(from_x, from_y), stored.channels, oriented.At(x, y));
+    }
+  }
+  return oriented;
+}
+
+std::string OneLine(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  while (!message.empty() && message.back() == ' ') message.pop_back();
+  return message.empty() ? "unknown reason" : message;
+}
+
+// A photograph file that is open, its header read and believable.
+class OpenImage {
+ public:
+  explicit OpenImage(const std::filesystem::path& file, OIIO::Filesystem::IOProxy* proxy = nullptr)
+      : file_(file) {
+    std::error_code error;
+    if (proxy == nullptr && !std::filesystem::is_regular_file(file, error)) {
+      throw Error(file, "no such image file");
+    }
+    OIIO::ImageSpec config;
+    // Colours as they are stored, not multiplied by the alpha that is going to be dropped.
+    config["oiio:UnassociatedAlpha"] = 1;
+    input_ = OIIO::ImageInput::open(file.string(), &config, proxy);
+    if (!input_) {
+      throw Error(file, "cannot read this as an image: " + OneLine(OIIO::geterror()));
+    }
+    const OIIO::ImageSpec& spec = input_->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.width > kLongestSide ||
+        spec.height > kLongestSide ||
+        static_cast<double>(spec.width) * spec.height * spec.nchannels > kMostPixels) {
+      throw Error(file,
+                  "cannot read this as an image: its header gives a size of " +
+                      std::to_string(spec.width) + " x " + std::to_string(spec.height) + " x " +
+                      std::to_string(spec.nchannels));
+    }
+  }
+
+  const OIIO::ImageSpec& spec() const { return input_->spec(); }
+  int ExifOrientation() const { return spec().get_int_attribute("Orientation", 1); }
+
+  // True if the stored values are linear light rather than sRGB codes.
+  bool IsLinear() const {
+    const std::string space = spec().get_string_attribute("oiio:ColorSpace");
+    if (space == "Linear" || space == "scene_linear") return true;
+    return spec().format.is_floating_point() && space != "sRGB";
+  }
+
+  // All channels as the file has them, not yet oriented.
+  template <typename T>
+  Raster<T> Read(OIIO::TypeDesc type) {
+    Raster<T> stored(spec().width, spec().height, spec().nchannels);
+    if (!input_->read_image(0, 0, 0, -1, type, stored.values.data()) || input_->has_error()) {
+      throw Error(file_, "this image is damaged: " + OneLine(input_->geterror()));
+    }
+    return stored;
+  }
+
+  // The three channels that make its colour; grey is repeated.
+  std::array<int, 3> ColourChannels() const {
+    const int channels = spec().nchannels;
+    if (channels < 3) return {0, 0, 0};
+    const int red = spec().channelindex("R");
+    const int green = spec().channelindex("G");
+    const int blue = spec().channelindex("B");
+    if (red >= 0 && green >= 0 && blue >= 0) return {red, green, blue};
+    return {0, 1, 2};
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+};
+
+// libjpeg fills what is missing of a truncated file with grey and says nothing, so look for the
+// end marker ourselves: past the headers, which may hold a whole thumbnail.
+void CheckJpegIsWhole(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(in), {}};
+  if (bytes.size() < 4 || bytes[0] != 0xFF || bytes[1] != 0xD8) return;  // not a JPEG
+  size_t at = 2;
+  while (at + 1 < bytes.size()) {
+    if (bytes[at] != 0xFF) {
+      ++at;  // entropy-coded data
+      continue;
+    }
+    const unsigned char marker = bytes[at + 1];
+    if (marker == 0xD9) return;
+    const bool is_bare =
+        marker == 0x00 || marker == 0x01 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD8);
+    if (is_bare) {
+      at += marker == 0xFF ? 1 : 2;
+      continue;
+    }
+    if (at + 3 >= bytes.size()) break;
+    at += 2 + (static_cast<size_t>(bytes[at + 2]) << 8 | bytes[at + 3]);
+  }
+  throw Error(file, "this image is damaged: the file ends before the picture does");
+}
+
+// Picks and repeats channels, then turns the picture upright.
+template <typename T, typename Convert>
+Raster<T> ColourOf(OpenImage& image, const Raster<T>& stored, Convert convert) {
+  const std::array<int, 3> channels = image.ColourChannels();
+  Raster<T> colour(stored.width, stored.height, 3);
+  const size_t pixels = static_cast<size_t>(stored.width) * stored.height;
+  for (size_t i = 0; i < pixels; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      colour.values[3 * i + c] = convert(stored.values[i * stored.channels + channels[c]]);
+    }
+  }
+  return Oriented(std::move(colour), image.ExifOrientation());
+}
+
+uint8_t CodeFromLinear(float linear) {
+  return static_cast<uint8_t>(SrgbFromLinear(linear) * 255.0f + 0.5f);
+}
+
+Image8 ReadOpenSrgb8(OpenImage& image) {
+  if (image.IsLinear()) {
+    const ImageF radiance =
+        ColourOf(image, image.Read<float>(OIIO::TypeFloat), [](float value) { return value; });
+    Image8 srgb8(radiance.width, radiance.height, 3);
+    std::transform(
+        radiance.values.begin(), radiance.values.end(), srgb8.values.begin(), CodeFromLinear);
+    return srgb8;
+  }
+  return ColourOf(image, image.Read<uint8_t>(OIIO::TypeUInt8), [](uint8_t v) { return v; });
+}
+
+void CheckSize(const std::filesystem::path& file, int width, int height) {
+  if (width < 1 || height < 1) throw Error(file, "cannot write an image without pixels");
+}
+
+// Writes through OpenImageIO; `file` is the name for messages, `target` where the bytes go.
+void WritePixels(const std::filesystem::path& file,
+                 const std::filesystem::path& target,
+                 OIIO::ImageSpec spec,
+                 OIIO::TypeDesc type,
+                 const void* pixels,
+                 const ImageWriteOptions& options,
+                 OIIO::Filesystem::IOProxy* proxy = nullptr) {
+  const std::string extension = LowerCase(file.extension().string());
+  if (extension == ".jpg" || extension == ".jpeg") {
+    spec.attribute("Compression", "jpeg:" + std::to_string(options.jpeg_quality));
+    spec.attribute("jpeg:subsampling", "4:4:4");
+  } else if (extension == ".png") {
+    spec.attribute("png:compressionLevel", 6);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+  } else if (extension == ".tif" || extension == ".tiff") {
+    spec.attribute("Compression", "zip");
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+  } else if (extension == ".exr") {
+    spec.attribute("Compression", "zip");
+  } else {
+    throw Error(file, "cannot write this kind of image; expected .jpg, .png, .tif or .exr");
+  }
+  spec.attribute("Software", "groundglass");
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(target.string());
+  if (!output) throw Error(file, "cannot write this image: " + OneLine(OIIO::geterror()));
+  if (proxy != nullptr) output->set_ioproxy(proxy);
+  if (!output->open(target.string(), spec) || !output->write_image(type, pixels) ||
+      !output->close()) {
+    throw Error(file, "cannot write this image: " + OneLine(output->geterror()));
+  }
+}
+
+OIIO::TypeDesc IntegerType(const std::filesystem::path& file, int bits) {
+  const std::string extension = LowerCase(file.extension().string());
+  if (bits != 8 && bits != 16) throw Error(file, "an image has 8 or 16 bits");
+  const bool is_jpeg = extension == ".jpg" || extension == ".jpeg";
+  if (is_jpeg && bits != 8) throw Error(file, "a JPEG has 8 bits; use .png or .tif for 16");
+  return bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8;
+}
+
+bool IsExr(const std::filesystem::path& file) {
+  return LowerCase(file.extension().string()) == ".exr";
+}
+
+}  // namespace
+
+float LinearFromSrgb(float encoded) {
+  static const std::vector<float> table = MakeTable(ExactLinearFromSrgb);
+  if (!(encoded > 0)) return 0;
+  if (encoded >= 1) return 1;
+  return Interpolate(table, encoded);
+}
+
+float SrgbFromLinear(float linear) {
+  static const std::vector<float> table = MakeTable(ExactSrgbFromLinear);
+  if (!(linear > 0)) return 0;
+  if (linear >= 1) return 1;
+  return Interpolate(table, linear);
+}
+
+ImageSize ReadImageSize(const std::filesystem::path& file) {
+  const OpenImage image(file);
+  const bool swaps = OrientationFromExif(image.ExifOrientation()).swaps_sides;
+  const int width = image.spec().width;
+  const int height = image.spec().height;
+  return swaps ? ImageSize{height, width} : ImageSize{width, height};
+}
+
+ImageF ReadRadiance(const std::filesystem::path& file) {
+  OpenImage image(file);
+  CheckJpegIsWhole(file);
+  if (image.IsLinear()) {
+    return ColourOf(image, image.Read<float>(OIIO::TypeFloat), [](float value) { return value; });
+  }
+  if (image.spec().format == OIIO::TypeUInt8) {
+    std::array<float, 256> linear_of_code;
+    for (int code = 0; code < 256; ++code) {
+      linear_of_code[code] = static_cast<float>(ExactLinearFromSrgb(code / 255.0));
+    }
+    const Image8 srgb8 =
+        ColourOf(image, image.Read<uint8_t>(OIIO::TypeUInt8), [](uint8_t value) { return value; });
+    ImageF radiance(srgb8.width, srgb8.height, 3);
+    std::transform(
+        srgb8.values.begin(), srgb8.values.end(), radiance.values.begin(), [&](uint8_t code) {
+          return linear_of_code[code];
+        });
+    return radiance;
+  }
+  return ColourOf(image, image.Read<float>(OIIO::TypeFloat), LinearFromSrgb);
+}
+
+Image8 ReadSrgb8(const std::filesystem::path& file) {
+  OpenImage image(file);
+  CheckJpegIsWhole(file);
+  return ReadOpenSrgb8(image);
+}
+
+Image8 ReadGrey8(const std::filesystem::path& file) {
+  const Image8 srgb8 = ReadSrgb8(file);
+  Image8 grey(srgb8.width, srgb8.height, 1);
+  for (size_t i = 0; i < grey.values.size(); ++i) {
+    const uint8_t* rgb = &srgb8.values[3 * i];
+    grey.values[i] =
+        static_cast<uint8_t>(0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2] + 0.5f);
+  }
+  return grey;
+}
+
+Image16 ReadLabels(const std::filesystem::path& file) {
+  OpenImage image(file);
+  CheckJpegIsWhole(file);
+  Image16 labels(image.spec().width, image.spec().height, 1);
+  const int channels = image.spec().nchannels;
+  // Read in the file's own width: a conversion would scale the codes.
+  if (image.spec().format == OIIO::TypeUInt8) {
+    const Image8 stored = image.Read<uint8_t>(OIIO::TypeUInt8);
+    for (size_t i = 0; i < labels.values.size(); ++i)
+      labels.values[i] = stored.values[i * channels];
+  } else if (image.spec().format == OIIO::TypeUInt16) {
+    const Image16 stored = image.Read<uint16_t>(OIIO::TypeUInt16);
+    for (size_t i = 0; i < labels.values.size(); ++i)
+      labels.values[i] = stored.values[i * channels];
+  } else {
+    throw Error(file, "a mask must have 8 or 16 bits of whole numbers");
+  }
+  return Oriented(std::move(labels), image.ExifOrientation());
+}
+
+void WriteRadiance(const std::filesystem::path& file,
+                   const ImageF& radiance,
+                   const ImageWriteOptions& options) {
+  CheckSize(file, radiance.width, radiance.height);
+  const OIIO::TypeDesc type = IsExr(file) ? OIIO::TypeHalf : IntegerType(file, options.bits);
+  const OIIO::ImageSpec spec(radiance.width, radiance.height, radiance.channels, type);
+  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
+    if (IsExr(file)) {
+      WritePixels(file, temporary, spec, OIIO::TypeFloat, radiance.values.data(), options);
+      return;
+    }
+    std::vector<float> encoded(radiance.values.size());
+    std::transform(radiance.values.begin(), radiance.values.end(), encoded.begin(), SrgbFromLinear);
+    WritePixels(file, temporary, spec, OIIO::TypeFloat, encoded.data(), options);
+  });
+}
+
+void WriteSrgb8(const std::filesystem::path& file,
+                const Image8& srgb8,
+                const ImageWriteOptions& options) {
+  CheckSize(file, srgb8.width, srgb8.height);
+  if (IsExr(file)) {
+    ImageF radiance(srgb8.width, srgb8.height, srgb8.channels);
+    std::transform(
+        srgb8.values.begin(), srgb8.values.end(), radiance.values.begin(), [](uint8_t code) {
+          return LinearFromSrgb(static_cast<float>(code) / 255.0f);
+        });
+    WriteRadiance(file, radiance, options);
+    return;
+  }
+  const OIIO::ImageSpec spec(
+      srgb8.width, srgb8.height, srgb8.channels, IntegerType(file, options.bits));
+  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
+    WritePixels(file, temporary, spec, OIIO::TypeUInt8, srgb8.values.data(), options);
+  });
+}
+
+void WriteLabels(const std::filesystem::path& file, const Image16& labels) {
+  CheckSize(file, labels.width, labels.height);
+  const OIIO::ImageSpec spec(labels.width, labels.height, labels.channels, OIIO::TypeUInt16);
+  IntegerType(file, 16);
+  if (IsExr(file)) throw Error(file, "labels are whole numbers; write them as .png or .tif");
+  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
+    WritePixels(file, temporary, spec, OIIO::TypeUInt16, labels.values.data(), {});
+  });
+}
+
+std::vector<uint8_t> EncodeImage(const Image8& srgb8,
+                                 const std::string& extension,
+                                 const ImageWriteOptions& options) {
+  const std::filesystem::path name = "image" + extension;
+  CheckSize(name, srgb8.width, srgb8.height);
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput proxy(bytes);
+  const OIIO::ImageSpec spec(
+      srgb8.width, srgb8.height, srgb8.channels, IntegerType(name, options.bits));
+  WritePixels(name, name, spec, OIIO::TypeUInt8, srgb8.values.data(), options, &proxy);
+  return bytes;
+}
+
+Image8 DecodeSrgb8(const std::vector<uint8_t>& bytes, const std::string& extension) {
+  OIIO::Filesystem::IOMemReader proxy(const_cast<uint8_t*>(bytes.data()), bytes.size());
+  OpenImage image("image" + extension, &proxy);
+  return ReadOpenSrgb8(image);
+}
+
+}  // namespace groundglass

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/polygon_model.h"
+
+#include <Eigen/Dense>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// An OBJ file as it is written, before anything is decided about its axes. `model` holds the
+// file's own coordinates; names come from `g` and `o`.
+struct ObjReading {
+  PolygonModel model;
+  std::optional<LengthUnit> unit;                     // of a "# unit: ft" comment
+  std::vector<int> face_lines;                        // for messages
+  std::vector<std::string> libraries;                 // `mtllib`
+  std::vector<std::string> materials;                 // `usemtl` of each face; may be empty
+  std::vector<Eigen::Vector2d> texture_points;        // `vt`, v upwards from the picture's bottom
+  std::vector<std::vector<int>> face_texture_points;  // of each face's corners; empty: none
+};
+
+// Throws Error naming file and line. Geometry of the faces is not yet checked.
+ObjReading ReadObj(const std::filesystem::path& file);
+
+}  // namespace groundglass
