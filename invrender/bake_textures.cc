@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/cells.h"
+#include "invrender/charts.h"
+#include "invrender/choose.h"
+#include "invrender/colour.h"
+#include "invrender/compose.h"
+#include "invrender/dilate.h"
+#include "invrender/invrender.h"
+#include "invrender/packing.h"
+#include "invrender/prepared_photo.h"
+#include "invrender/texel_size.h"
+#include "scene/error.h"
+#include "scene/scene_folder.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+namespace groundglass {
+namespace {
+
+// Counts steps for a Progress, from any thread.
+class Steps {
+ public:
+  Steps(const Progress& progress, int total) : progress_(progress), total_(total) {}
+  void Tell(const std::string& what) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++done_;
+    if (progress_) progress_(done_, total_, what);
+  }
+
+ private:
+  const Progress& progress_;
+  int total_;
+  int done_ = 0;
+  std::mutex mutex_;
+};
+
+std::vector<PreparedPhoto> PreparePhotos(const PolygonModel& model,
+                                         const std::vector<BakePhotograph>& photographs,
+                                         const Visibility& visibility,
+                                         const std::vector<int>& chart_of_face,
+                                         const BakeOptions& options,
+                                         Steps& steps) {
+  std::vector<PreparedPhoto> photos;
+  photos.reserve(photographs.size());
+  for (const BakePhotograph& photograph : photographs) {
+    photos.emplace_back(photograph, model, visibility, chart_of_face, options);
+    steps.Tell("read " + photograph.name);
+  }
+  return photos;
+}
+
+// How many texels of each face have their centre in it (or, for slivers, touch it), and how many
+// of those are covered.
+void CountTexels(const ChartTexels& texels, const ChartPixels& pixels, Coverage& coverage) {
+  for (int y = 0; y < texels.height(); ++y) {
+    for (int x = 0; x < texels.width(); ++x) {
+      if (texels.FaceAt(x, y) < 0 || !texels.IsCentreInside(x, y)) continue;
+      FaceCoverage& face = coverage.faces[texels.FaceAt(x, y)];
+      ++face.num_texels;
+      if (*pixels.provenance.At(x, y) != kProvenanceNone) ++face.num_covered_texels;
+    }
+  }
+}
+
+void AddSources(const std::vector<BakePhotograph>& photographs,
+                ChartPixels& pixels,
+                Coverage& coverage) {
+  for (FaceSource& source : pixels.sources) {
+    FaceCoverage::Source& entry = coverage.faces[source.face].sources.emplace_back();
+    entry.photograph = photographs[source.photo].name;
+    entry.num_texels = source.num_texels;
+    std::vector<float>& footprints = source.footprints;
+    if (!footprints.empty()) {
+      std::nth_element(
+          footprints.begin(), footprints.begin() + footprints.size() / 2, footprints.end());
+      entry.footprint = footprints[footprints.size() / 2];
+    }
+  }
+}
+
+Coverage StartCoverage(const PolygonModel& model,
+                       const std::vector<Chart>& charts,
+                       const std::vector<int>& chart_of_face) {
+  Coverage coverage;
+  for (size_t i = 0; i < model.faces.size(); ++i) {
+    FaceCoverage& face = coverage.faces.emplace_back();
+    face.face = static_cast<int>(i);
+    face.name = model.faces[i].name;
+    face.area = ComputeFaceArea(model, face.face);
+    face.texel_size = charts[chart_of_face[i]].texel_size;
+  }
+  return coverage;
+}
+
+void FinishCoverage(Coverage& coverage) {
+  for (FaceCoverage& face : coverage.faces) {
+    if (face.num_texels > 0) {
+      face.covered_area = face.area * static_cast<double>(face.num_covered_texels) /
+                          static_cast<double>(face.num_texels);
+    }
+    std::stable_sort(face.sources.begin(), face.sources.end(), [](const auto& a, const auto& b) {
+      return a.num_texels > b.num_texels;
+    });
+  }
+}
+
+TexturedModel MakeTexturedModel(const PolygonModel& model,
+                                const std::vector<Chart>& charts,
+                                const std::vector<int>& chart_of_face,
+                                const std::vector<PageSize>& page_sizes) {
+  TexturedModel textured;
+  textured.model = model;
+  for (const PageSize& size : page_sizes) {
+    TexturePage& page = textured.pages.emplace_back();
+    page.srgb8 = Image8(size.width, size.height, 3);
+    page.provenance = Image16(size.width, size.height, 1);
+  }
+  textured.faces.resize(model.faces.size());
+  for (size_t i = 0; i < model.faces.size(); ++i) {
+    const Chart& chart = charts[chart_of_face[i]];
+    if (chart.page < 0) continue;
+    textured.faces[i].page = chart.page;
+    for (const int point : model.faces[i].points) {
+      textured.faces[i].corners_texel.push_back(chart.TexelFromWorld(model.points_in_world[point]) +
+                                                Eigen::Vector2d(chart.x_on_page, chart.y_on_page));
+    }
+  }
+  return textured;
+}
+
+}  // namespace
+
+void BakeOptions::Check() const {
+  if (!(texel_size >= 0) || !std::isfinite(texel_size)) {
+    throw Error("texel_size must be 0 (automatic) or more");
+  }
+  if (max_page_texels < 64 || max_page_texels > 32768) {
+    throw Error("max_page_texels must be from 64 to 32768");
+  }
+  if (gutter_texels < 1 || gutter_texels > 24) throw Error("gutter_texels must be from 1 to 24");
+  if (!(border_margin_px >= 0 && border_margin_px <= 20)) {
+    throw Error("border_margin_px must be from 0 to 20");
+  }
+  if (!(frame_margin >= 0 && frame_margin < 0.4)) throw Error("frame_margin must be in [0, 0.4)");
+}
+
+BakeResult BakeTextures(const PolygonModel& model,
+                        std::span<const BakePhotograph> photographs,
+                        const BakeOptions& options,
+                        const Progress& progress) {
+  options.Check();
+  if (photographs.size() >= kProvenanceFilled) throw Error("more than 65534 photographs");
+  // Name order, which provenance counts in.
+  std::vector<BakePhotograph> sorted(photographs.begin(), photographs.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    return NaturalLess(a.name, b.name);
+  });
+
+  const Visibility visibility(model);
+  std::vector<Chart> charts = MakeCharts(model);
+  const std::vector<int> chart_of_face = ChartOfFace(charts, model.faces.size());
+  const int num_charts = static_cast<int>(charts.size());
+  Steps steps(progress, static_cast<int>(sorted.size()) + 2 * num_charts);
+  const std::vector<PreparedPhoto> photos =
+      PreparePhotos(model, sorted, visibility, chart_of_face, options, steps);
+  ChooseTexelSizes(model, photos, options, charts);
+  const std::vector<PageSize> page_sizes =
+      PackCharts(charts, options.gutter_texels, options.max_page_texels);
+
+  // Settle colour and choice on cells.
+  std::vector<ChartCells> cells(charts.size());
+  tbb::parallel_for(0, num_charts, [&](int i) {
+    if (charts[i].page >= 0) {
+      cells[i] = ObserveCells(charts[i], i, ChartTexels(model, charts[i]), photos);
+    }
+    steps.Tell("compared the photographs of chart " + std::to_string(i + 1));
+  });
+  const ColourModel colour = options.match_colour ? EstimateColour(cells, photos.size())
+                                                  : MakeNeutralColour(cells, photos.size());
+
+  // Fill the pages.
+  BakeResult result;
+  result.model = MakeTexturedModel(model, charts, chart_of_face, page_sizes);
+  result.coverage = StartCoverage(model, charts, chart_of_face);
+  tbb::parallel_for(0, num_charts, [&](int i) {
+    const Chart& chart = charts[i];
+    if (chart.page >= 0) {
+      const ChartTexels texels(model, chart);
+      const ChartChoice choice = ChooseCells(cells[i], i, colour, options);
+      ChartPixels pixels =
+          ComposeChart(chart, i, texels, photos, cells[i], choice, colour, options);
+      SpreadIntoWeakTexels(static_cast<int>(std::ceil(2 * options.border_margin_px)), pixels);
+      // Faces and pages' rectangles of different charts do not overlap: no lock.
+      CountTexels(texels, pixels, result.coverage);
+      AddSources(sorted, pixels, result.coverage);
+      PlaceOnPage(chart, pixels, options.gutter_texels, result.model.pages[chart.page]);
+    }
+    steps.Tell("textured chart " + std::to_string(i + 1));
+  });
+  FinishCoverage(result.coverage);
+  return result;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/border_distance.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+// Depth along the ray of a face's plane, where the ray has z = 1 in `cam`.
+class FaceDepths {
+ public:
+  FaceDepths(const PolygonModel& model, const Camera& camera) {
+    planes_.reserve(model.faces.size());
+    for (size_t face = 0; face < model.faces.size(); ++face) {
+      const FacePlane plane = ComputeFacePlane(model, static_cast<int>(face));
+      const Eigen::Vector3d normal_in_cam = camera.cam_from_world.rotation * plane.normal_in_world;
+      planes_.push_back(
+          {normal_in_cam, plane.offset + normal_in_cam.dot(camera.cam_from_world.translation)});
+    }
+  }
+  double At(int face, const Eigen::Vector3d& ray_in_cam) const {
+    return planes_[face].offset / planes_[face].normal_in_cam.dot(ray_in_cam);
+  }
+
+ private:
+  struct Plane {
+    Eigen::Vector3d normal_in_cam;
+    double offset;
+  };
+  std::vector<Plane> planes_;
+};
+
+}  // namespace
+
+Image8 ComputeBorderDistance(const PolygonModel& model,
+                             const Camera& camera,
+                             const Image16& labels,
+                             const std::vector<int>& chart_of_face,
+                             const Image8& ignored) {
+  const int width = labels.width;
+  const int height = labels.height;
+  const FaceDepths depths(model, camera);
+  // 0 at pixels beside a border, 255 elsewhere: what the distance transform wants.
+  cv::Mat jumps(height, width, CV_8U, cv::Scalar(255));
+  cv::Mat creases(height, width, CV_8U, cv::Scalar(255));
+  const auto compare = [&](int x, int y, int other_x, int other_y) {
+    const uint16_t first = *labels.At(x, y);
+    const uint16_t second = *labels.At(other_x, other_y);
+    if (first == second) return;
+    bool is_crease = false;
+    if (first != 0 && second != 0) {
+      if (chart_of_face[first - 1] == chart_of_face[second - 1]) return;
+      // The two planes meet between the pixels if their depths differ by no more there than each
+      // changes within two pixels.
+      const Eigen::Vector3d ray = UnprojectToCam(camera, {x + 0.5, y + 0.5});
+      const Eigen::Vector3d other = UnprojectToCam(camera, {other_x + 0.5, other_y + 0.5});
+      const Eigen::Vector3d middle = (ray + other) / 2;
+      const double a = depths.At(first - 1, middle);
+      const double b = depths.At(second - 1, middle);
+      const double slope = std::abs(depths.At(first - 1, ray) - depths.At(first - 1, other)) +
+                           std::abs(depths.At(second - 1, ray) - depths.At(second - 1, other));
+      is_crease = std::abs(a - b) <= slope + 0.001 * std::abs(a);
+    }
+    cv::Mat& target = is_crease ? creases : jumps;
+    target.at<uint8_t>(y, x) = 0;
+    target.at<uint8_t>(other_y, other_x) = 0;
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (x + 1 < width) compare(x, y, x + 1, y);
+      if (y + 1 < height) compare(x, y, x, y + 1);
+      if (*labels.At(x, y) == 0 || (!ignored.Empty() && *ignored.At(x, y) != 0)) {
+        jumps.at<uint8_t>(y, x) = 0;
+      }
+    }
+  }
+  cv::Mat jump_distance;
+  cv::Mat crease_distance;
+  cv::distanceTransform(jumps, jump_distance, cv::DIST_L2, cv::DIST_MASK_5);
+  cv::distanceTransform(creases, crease_distance, cv::DIST_L2, cv::DIST_MASK_5);
+  Image8 border(width, height, 1);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool is_ignored = !ignored.Empty() && *ignored.At(x, y) != 0;
+      if (*labels.At(x, y) == 0 || is_ignored) continue;
+      // A pixel beside a border has its centre half a pixel from it.
+      const double distance =
+          0.5 + std::min<double>(jump_distance.at<float>(y, x),
+                                 crease_distance.at<float>(y, x) + kCreaseBonusPx);
+      *border.At(x, y) = static_cast<uint8_t>(std::clamp(distance * kBorderStepsPerPx, 1.0, 255.0));
+    }
+  }
+  return border;
+}
+
+Image8 FindMount(const Image8& srgb8) {
+  constexpr int kDark = 32;
+  constexpr double kDarkShare = 0.5;  // of a side, to be a mount's
+  constexpr double kDeepest = 0.1;    // of the frame's width
+  const int width = srgb8.width;
+  const int height = srgb8.height;
+  const int depth = static_cast<int>(kDeepest * std::min(width, height));
+  const auto is_dark = [&](int x, int y) {
+    const uint8_t* pixel = srgb8.At(x, y);
+    return std::max({pixel[0], pixel[1], pixel[2]}) < kDark;
+  };
+  Image8 mount(width, height, 1);
+  // From each side inwards, as far as a column (or row) stays dark.
+  const auto walk = [&](int count, auto position) {
+    int num_dark = 0;
+    for (int i = 0; i < count; ++i) {
+      const auto [x, y] = position(i, 1);
+      num_dark += is_dark(x, y) ? 1 : 0;
+    }
+    if (num_dark < kDarkShare * count) return;
+    for (int i = 0; i < count; ++i) {
+      for (int in = 0; in < depth; ++in) {
+        const auto [x, y] = position(i, in);
+        if (in > 1 && !is_dark(x, y)) break;
+        *mount.At(x, y) = 255;
+      }
+    }
+  };
+  using Position = std::pair<int, int>;
+  if (depth < 2) return mount;
+  walk(height, [&](int i, int in) { return Position(in, i); });
+  walk(height, [&](int i, int in) { return Position(width - 1 - in, i); });
+  walk(width, [&](int i, int in) { return Position(i, in); });
+  walk(width, [&](int i, int in) { return Position(i, height - 1 - in); });
+  cv::Mat view(height, width, CV_8U, mount.values.data());
+  const int reach = std::max(2, static_cast<int>(std::lround(0.004 * width)));
+  cv::dilate(view.clone(),
+             view,
+             cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
+  return mount;
+}
+
+}  // namespace groundglass

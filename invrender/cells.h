@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "invrender/charts.h"
+#include "invrender/prepared_photo.h"
+
+#include <Eigen/Dense>
+
+#include <vector>
+
+namespace groundglass {
+
+// Side of a cell in texels. Colour, consensus and choice are settled on cells; texels only follow.
+constexpr int kCellTexels = 4;
+
+// One cell as one photograph shows it.
+struct CellView {
+  float quality = 0;         // 0: not seen
+  float radius_squared = 0;  // PreparedPhoto::RadiusSquared
+  bool is_usable = false;    // neither burnt out nor black, and clear of borders
+  Eigen::Array3f log_radiance = Eigen::Array3f::Zero();  // natural logarithm
+};
+
+// What every photograph shows of one chart, coarsely.
+struct ChartCells {
+  int width = 0;  // cells
+  int height = 0;
+  std::vector<int> photos;      // those that see some of the chart, ascending
+  std::vector<char> is_inside;  // per cell: some texel of it has a face
+  std::vector<CellView> views;  // [cell * photos.size() + k]
+
+  int NumCells() const { return width * height; }
+  const CellView* ViewsOf(int cell) const { return &views[cell * photos.size()]; }
+};
+
+// Looks every cell of a chart up in every photograph.
+ChartCells ObserveCells(const Chart& chart,
+                        int chart_index,
+                        const ChartTexels& texels,
+                        const std::vector<PreparedPhoto>& photos);
+
+}  // namespace groundglass

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "invrender/cells.h"
+#include "invrender/colour.h"
+#include "invrender/invrender.h"
+
+#include <vector>
+
+namespace groundglass {
+
+// Which photograph textures each cell of a chart.
+struct ChartChoice {
+  std::vector<int> best;          // per cell: k in ChartCells::photos, or -1
+  std::vector<float> acceptance;  // [cell * photos.size() + k]: 1 agrees with the consensus,
+                                  // towards 0 something else stands there
+};
+
+// Picks by resolution, angle and distance to borders (CellView::quality), against photographs that
+// differ from the consensus of the others.
+ChartChoice ChooseCells(const ChartCells& cells,
+                        int chart,
+                        const ColourModel& colour,
+                        const BakeOptions& options);
+
+}  // namespace groundglass

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/dilate.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace groundglass {
+namespace {
+
+struct Spot {
+  int x;
+  int y;
+  uint8_t colour[3];
+  uint16_t provenance;
+};
+
+// One ring: every texel that `wants` a colour and has neighbours that are `known` gets their mean.
+// Returns the texels that were filled; they become known.
+std::vector<Spot> GrowRing(const std::vector<std::pair<int, int>>& candidates,
+                           const Image8& srgb8,
+                           const Image16& provenance,
+                           const Raster<uint8_t>& known) {
+  std::vector<Spot> filled;
+  for (const auto& [x, y] : candidates) {
+    int sum[3] = {0, 0, 0};
+    int count = 0;
+    uint16_t source = kProvenanceNone;
+    for (int j = std::max(0, y - 1); j <= std::min(known.height - 1, y + 1); ++j) {
+      for (int i = std::max(0, x - 1); i <= std::min(known.width - 1, x + 1); ++i) {
+        if (!*known.At(i, j)) continue;
+        for (int c = 0; c < 3; ++c) sum[c] += srgb8.At(i, j)[c];
+        if (source == kProvenanceNone) source = *provenance.At(i, j);
+        ++count;
+      }
+    }
+    if (count == 0) continue;
+    Spot spot{x, y, {}, source};
+    for (int c = 0; c < 3; ++c) spot.colour[c] = static_cast<uint8_t>((sum[c] + count / 2) / count);
+    filled.push_back(spot);
+  }
+  return filled;
+}
+
+// Grows colour from `known` into `wanted`, ring by ring.
+void Grow(int rings,
+          Image8& srgb8,
+          Image16& provenance,
+          Raster<uint8_t>& known,
+          Raster<uint8_t>& wanted,
+          bool keep_provenance) {
+  const auto neighbours = [&](int x, int y, auto&& visit) {
+    for (int j = std::max(0, y - 1); j <= std::min(known.height - 1, y + 1); ++j) {
+      for (int i = std::max(0, x - 1); i <= std::min(known.width - 1, x + 1); ++i) visit(i, j);
+    }
+  };
+  std::vector<std::pair<int, int>> frontier;
+  for (int y = 0; y < known.height; ++y) {
+    for (int x = 0; x < known.width; ++x) {
+      if (!*wanted.At(x, y)) continue;
+      bool is_beside_known = false;
+      neighbours(x, y, [&](int i, int j) { is_beside_known |= *known.At(i, j) != 0; });
+      if (is_beside_known) frontier.emplace_back(x, y);
+    }
+  }
+  for (int ring = 0; ring < rings && !frontier.empty(); ++ring) {
+    const std::vector<Spot> filled = GrowRing(frontier, srgb8, provenance, known);
+    for (const Spot& spot : filled) {
+      std::copy(spot.colour, spot.colour + 3, srgb8.At(spot.x, spot.y));
+      if (!keep_provenance) *provenance.At(spot.x, spot.y) = spot.provenance;
+      *known.At(spot.x, spot.y) = 1;
+      *wanted.At(spot.x, spot.y) = 0;
+    }
+    frontier.clear();
+    for (const Spot& spot : filled) {
+      neighbours(spot.x, spot.y, [&](int i, int j) {
+        if (*wanted.At(i, j) == 1) {
+          *wanted.At(i, j) = 2;  // queued
+          frontier.emplace_back(i, j);
+        }
+      });
+    }
+    for (const auto& [x, y] : frontier) *wanted.At(x, y) = 1;
+  }
+}
+
+}  // namespace
+
+void SpreadIntoWeakTexels(int reach, ChartPixels& pixels) {
+  Raster<uint8_t> known(pixels.states.width, pixels.states.height, 1);
+  Raster<uint8_t> wanted(pixels.states.width, pixels.states.height, 1);
+  for (size_t i = 0; i < pixels.states.values.size(); ++i) {
+    const auto state = static_cast<TexelState>(pixels.states.values[i]);
+    known.values[i] = state == TexelState::kGood;
+    wanted.values[i] = state == TexelState::kWeak;
+  }
+  Grow(reach, pixels.srgb8, pixels.provenance, known, wanted, false);
+}
+
+void PlaceOnPage(const Chart& chart,
+                 const ChartPixels& pixels,
+                 int gutter_texels,
+                 TexturePage& page) {
+  const int width = chart.width_texels + 2 * gutter_texels;
+  const int height = chart.height_texels + 2 * gutter_texels;
+  Image8 srgb8(width, height, 3);
+  Image16 provenance(width, height, 1);
+  Raster<uint8_t> known(width, height, 1);
+  Raster<uint8_t> wanted(width, height, 1, 1);
+  for (int y = 0; y < chart.height_texels; ++y) {
+    for (int x = 0; x < chart.width_texels; ++x) {
+      const int to_x = x + gutter_texels;
+      const int to_y = y + gutter_texels;
+      const auto state = static_cast<TexelState>(*pixels.states.At(x, y));
+      if (state == TexelState::kOutside) continue;
+      *wanted.At(to_x, to_y) = 0;
+      if (state == TexelState::kOpen) continue;
+      std::copy_n(pixels.srgb8.At(x, y), 3, srgb8.At(to_x, to_y));
+      *provenance.At(to_x, to_y) = *pixels.provenance.At(x, y);
+      *known.At(to_x, to_y) = 1;
+    }
+  }
+  Grow(gutter_texels, srgb8, provenance, known, wanted, true);
+  for (int y = 0; y < height; ++y) {
+    const int page_y = chart.y_on_page - gutter_texels + y;
+    const int page_x = chart.x_on_page - gutter_texels;
+    std::copy_n(srgb8.At(0, y), 3 * width, page.srgb8.At(page_x, page_y));
+    std::copy_n(provenance.At(0, y), width, page.provenance.At(page_x, page_y));
+  }
+}
+
+}  // namespace groundglass

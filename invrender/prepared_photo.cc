@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/prepared_photo.h"
+
+#include "invrender/border_distance.h"
+#include "scene/error.h"
+#include "scene/image_io.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+void CheckSize(const std::filesystem::path& file, int width, int height, const Camera& camera) {
+  if (width == camera.width_px && height == camera.height_px) return;
+  throw Error(file,
+              "is " + SizeText(width, height) + " px, but its camera is for " +
+                  SizeText(camera.width_px, camera.height_px));
+}
+
+Image8 ReadPhotograph(const BakePhotograph& photograph) {
+  Image8 srgb8 = ReadSrgb8(photograph.image_file);
+  CheckSize(photograph.image_file, srgb8.width, srgb8.height, photograph.camera);
+  return srgb8;
+}
+
+// 0 below `low`, 1 above `high`, smooth between.
+double SmoothStep(double low, double high, double value) {
+  const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+}  // namespace
+
+PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
+                             const PolygonModel& model,
+                             const Visibility& visibility,
+                             const std::vector<int>& chart_of_face,
+                             const BakeOptions& options)
+    : visibility_(visibility),
+      chart_of_face_(chart_of_face),
+      camera_(photograph.camera),
+      position_in_world_(photograph.camera.PositionInWorld()),
+      weight_(photograph.weight),
+      frame_margin_px_(std::max(1.0, options.frame_margin * photograph.camera.width_px)),
+      border_margin_px_(options.border_margin_px),
+      tolerance_(visibility.DefaultTolerance()),
+      is_hand_painted_(photograph.faces_file.has_value()),
+      pyramid_(ReadPhotograph(photograph)) {
+  if (photograph.faces) {
+    allowed_.assign(model.faces.size(), 0);
+    for (const int face : *photograph.faces) allowed_.at(face) = 1;
+  }
+  if (is_hand_painted_) {
+    labels_ = ReadLabels(*photograph.faces_file);
+    CheckSize(*photograph.faces_file, labels_.width, labels_.height, camera_);
+    for (const uint16_t label : labels_.values) {
+      if (label > model.faces.size()) {
+        throw Error(*photograph.faces_file,
+                    "names face " + std::to_string(label) + ", but the model has " +
+                        std::to_string(model.faces.size()));
+      }
+    }
+  } else {
+    labels_ = MakeFaceMask(model, visibility, camera_);
+  }
+  Image8 ignored(camera_.width_px, camera_.height_px, 1);
+  if (options.detect_mount) ignored = FindMount(pyramid_.Full());
+  if (photograph.mask_file) {
+    const Image16 mask = ReadLabels(*photograph.mask_file);
+    CheckSize(*photograph.mask_file, mask.width, mask.height, camera_);
+    // White may be 255 or 65535, and anything brighter than the middle is white.
+    const uint16_t top = *std::max_element(mask.values.begin(), mask.values.end());
+    const int threshold = top > 255 ? 32768 : 128;
+    for (size_t i = 0; i < mask.values.size(); ++i) {
+      if (mask.values[i] >= threshold) ignored.values[i] = 255;
+    }
+  }
+  border_ = ComputeBorderDistance(model, camera_, labels_, chart_of_face, ignored);
+}
+
+double PreparedPhoto::RadiusSquared(const Eigen::Vector2d& image_px) const {
+  const Eigen::Vector2d half(camera_.width_px / 2.0, camera_.height_px / 2.0);
+  return (image_px - half).squaredNorm() / half.squaredNorm();
+}
+
+std::optional<Sighting> PreparedPhoto::Sight(const Eigen::Vector3d& point_in_world,
+                                             const Chart& chart,
+                                             int chart_index,
+                                             int face) const {
+  const Eigen::Vector3d to_camera = position_in_world_ - point_in_world;
+  if (to_camera.dot(chart.normal_in_world) <= 0 || !MayTexture(face)) return std::nullopt;
+  const Eigen::Vector3d in_cam = camera_.cam_from_world * point_in_world;
+  const auto image_px = ProjectFromCam(camera_, in_cam);
+  if (!image_px) return std::nullopt;
+  const double frame_px = std::min({image_px->x(),
+                                    image_px->y(),
+                                    camera_.width_px - image_px->x(),
+                                    camera_.height_px - image_px->y()});
+  if (!(frame_px >= frame_margin_px_)) return std::nullopt;
+  const int x = static_cast<int>(image_px->x());
+  const int y = static_cast<int>(image_px->y());
+  const uint16_t label = *labels_.At(x, y);
+  const double border_px = *border_.At(x, y) / kBorderStepsPerPx;
+  const bool is_own = label != 0 && chart_of_face_[label - 1] == chart_index;
+  if (is_hand_painted_) {
+    if (label != face + 1 || border_px == 0) return std::nullopt;
+  } else if (border_px < 1.5 + kCreaseBonusPx) {
+    // The pixel's centre does not speak for its whole: ask for the very point.
+    if (border_px == 0 && is_own) return std::nullopt;  // ignored
+    if (!visibility_.IsClear(position_in_world_, point_in_world, tolerance_)) return std::nullopt;
+  } else if (!is_own) {
+    return std::nullopt;
+  }
+
+  Sighting sighting;
+  sighting.image_px = *image_px;
+  sighting.border_px = is_own ? border_px : 0;
+  // d(image) / d(point), through the distortion.
+  const Eigen::Vector2d n = in_cam.hnormalized();
+  const double r2 = n.squaredNorm();
+  const double s = 1 + r2 * (camera_.k1 + r2 * camera_.k2);
+  const double ds = 2 * (camera_.k1 + 2 * camera_.k2 * r2);
+  Eigen::Matrix2d image_from_n = s * Eigen::Matrix2d::Identity() + ds * n * n.transpose();
+  image_from_n.row(0) *= camera_.focal_x_px;
+  image_from_n.row(1) *= camera_.focal_y_px;
+  Eigen::Matrix<double, 2, 3> n_from_cam;
+  n_from_cam << 1, 0, -n.x(), 0, 1, -n.y();
+  n_from_cam /= in_cam.z();
+  Eigen::Matrix<double, 3, 2> cam_from_plane;
+  cam_from_plane.col(0) = camera_.cam_from_world.rotation * chart.right_in_world;
+  cam_from_plane.col(1) = camera_.cam_from_world.rotation * chart.down_in_world;
+  sighting.px_from_unit = image_from_n * n_from_cam * cam_from_plane;
+
+  // Resolution: the worse direction counts more, since its blur is what the eye sees.
+  const double sum = sighting.px_from_unit.squaredNorm();
+  const double det = std::abs(sighting.px_from_unit.determinant());
+  const double root = std::sqrt(std::max(0.0, sum * sum - 4 * det * det));
+  const double large = std::sqrt((sum + root) / 2);
+  const double small = large > 0 ? det / large : 0;
+  const double resolution = std::pow(small, 0.75) * std::pow(large, 0.25);
+  const double border =
+      1e-3 + SmoothStep(border_margin_px_ - 1, border_margin_px_ + 4, sighting.border_px);
+  const double frame =
+      0.5 +
+      0.5 * SmoothStep(frame_margin_px_, frame_margin_px_ + 0.06 * camera_.width_px, frame_px);
+  sighting.quality = weight_ * resolution * border * frame;
+  return sighting;
+}
+
+}  // namespace groundglass

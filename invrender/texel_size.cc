@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/texel_size.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+// Points spread over a face: 16 in each of its triangles, in barycentric coordinates.
+std::vector<Eigen::Vector3d> SpreadPoints(const PolygonModel& model, int face) {
+  constexpr int kRows = 7;
+  std::vector<Eigen::Vector3d> points;
+  for (const std::array<int, 3>& triangle : TriangulateFace(model, face)) {
+    const Eigen::Vector3d& a = model.points_in_world[triangle[0]];
+    const Eigen::Vector3d& b = model.points_in_world[triangle[1]];
+    const Eigen::Vector3d& c = model.points_in_world[triangle[2]];
+    for (int i = 0; i < kRows; ++i) {
+      for (int j = 0; j + i < kRows; ++j) {
+        const double u = (i + 1.0 / 3) / kRows;
+        const double v = (j + 1.0 / 3) / kRows;
+        points.push_back(a + u * (b - a) + v * (c - a));
+      }
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+void ChooseTexelSizes(const PolygonModel& model,
+                      const std::vector<PreparedPhoto>& photos,
+                      const BakeOptions& options,
+                      std::vector<Chart>& charts) {
+  // The share of a chart whose best photograph the texels do not blur.
+  constexpr double kKept = 0.75;
+  const int room = options.max_page_texels - 2 * options.gutter_texels;
+  tbb::parallel_for(size_t{0}, charts.size(), [&](size_t index) {
+    Chart& chart = charts[index];
+    std::vector<double> best_resolutions;
+    for (const int face : chart.faces) {
+      for (const Eigen::Vector3d& point : SpreadPoints(model, face)) {
+        double best = 0;
+        for (const PreparedPhoto& photo : photos) {
+          const auto sighting = photo.Sight(point, chart, static_cast<int>(index), face);
+          if (!sighting) continue;
+          best = std::max(best, std::sqrt(std::abs(sighting->px_from_unit.determinant())));
+        }
+        if (best > 0) best_resolutions.push_back(best);
+      }
+    }
+    if (best_resolutions.empty()) return;
+    std::sort(best_resolutions.begin(), best_resolutions.end());
+    const size_t rank =
+        static_cast<size_t>(kKept * static_cast<double>(best_resolutions.size() - 1));
+    double size = options.texel_size > 0 ? options.texel_size : 1 / best_resolutions[rank];
+    size = std::max(size, std::max(chart.width, chart.height) / room);
+    chart.SetTexelSize(size);
+  });
+}
+
+}  // namespace groundglass
