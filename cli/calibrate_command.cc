@@ -1,9 +1,161 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "calibrate/board.h"
 #include "cli/commands.h"
+#include "scene/atomic_file.h"
+#include "scene/error.h"
+#include "scene/image_io.h"
+#include "scene/lens.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace groundglass {
+namespace {
 
-void AddCalibrateCommand(CLI::App&, int&) {}
+struct BoardArguments {
+  CommonOptions common;
+  std::vector<std::filesystem::path> photographs;
+  std::filesystem::path lens_file;
+  std::filesystem::path print_file;
+  std::string camera;
+  Board board;
+  BoardOptions options;
+};
+
+int PrintBoard(const BoardArguments& arguments) {
+  if (arguments.common.dry_run) {
+    std::printf("would draw the board into %s\n", arguments.print_file.c_str());
+    return kExitDone;
+  }
+  WriteSrgb8(arguments.print_file, DrawBoard(arguments.board));
+  std::printf(
+      "%s: print it without margins or fitting, mount it flat, and measure a black\n"
+      "square's edge (--tag-size) and the white between two (--gap).\n",
+      arguments.print_file.c_str());
+  return kExitDone;
+}
+
+nlohmann::ordered_json JsonFromResult(const BoardResult& result) {
+  nlohmann::ordered_json json;
+  const Lens& lens = result.lens;
+  json["lens"] = {{"camera", lens.name},
+                  {"v", lens.view_angle_deg},
+                  {"sigma_v", lens.sigma_view_angle_deg},
+                  {"a", lens.aspect},
+                  {"sigma_a", lens.sigma_aspect},
+                  {"shift_x", lens.shift_x},
+                  {"sigma_shift_x", lens.sigma_shift_x},
+                  {"shift_y", lens.shift_y},
+                  {"sigma_shift_y", lens.sigma_shift_y},
+                  {"k1", lens.k1},
+                  {"sigma_k1", lens.sigma_k1},
+                  {"k2", lens.k2},
+                  {"sigma_k2", lens.sigma_k2}};
+  json["corners"] = result.num_corners;
+  json["rms_px"] = result.rms_px;
+  json["remarks"] = result.remarks;
+  json["photographs"] = nlohmann::ordered_json::array();
+  for (const BoardSighting& sighting : result.photographs) {
+    json["photographs"].push_back(
+        {{"name", sighting.name}, {"tags", sighting.num_tags}, {"rms_px", sighting.rms_px}});
+  }
+  return json;
+}
+
+void PrintResult(const BoardResult& result) {
+  for (const BoardSighting& sighting : result.photographs) {
+    if (sighting.num_tags == 0) {
+      std::printf("%s: too little of the board, left out\n", sighting.name.c_str());
+    } else {
+      std::printf(
+          "%s: %d tags, %.3f px\n", sighting.name.c_str(), sighting.num_tags, sighting.rms_px);
+    }
+  }
+  const Lens& lens = result.lens;
+  std::printf("%d corners, %.3f px\n", result.num_corners, result.rms_px);
+  std::printf("v        %10.4f +- %.4f degrees\n", lens.view_angle_deg, lens.sigma_view_angle_deg);
+  std::printf("a        %10.5f +- %.5f\n", lens.aspect, lens.sigma_aspect);
+  std::printf("shift_x  %10.5f +- %.5f of the width\n", lens.shift_x, lens.sigma_shift_x);
+  std::printf("shift_y  %10.5f +- %.5f of the width\n", lens.shift_y, lens.sigma_shift_y);
+  std::printf("k1       %10.5f +- %.5f\n", lens.k1, lens.sigma_k1);
+  if (lens.sigma_k2 > 0) std::printf("k2       %10.5f +- %.5f\n", lens.k2, lens.sigma_k2);
+}
+
+int CalibrateFromPhotographs(const BoardArguments& arguments) {
+  if (arguments.lens_file.empty()) throw CLI::RequiredError("-o, the lens file to write,");
+  if (arguments.common.dry_run) {
+    std::printf("would calibrate from %zu photographs and write %s\n",
+                arguments.photographs.size(),
+                arguments.lens_file.c_str());
+    return kExitDone;
+  }
+  const Progress progress = MakeProgress(arguments.common, "reading");
+  std::vector<BoardPhotograph> photographs;
+  for (const std::filesystem::path& file : arguments.photographs) {
+    photographs.push_back({file.string(), ReadGrey8(file)});
+    if (progress) {
+      progress(static_cast<int>(photographs.size()),
+               static_cast<int>(arguments.photographs.size()),
+               file.filename().string());
+    }
+  }
+  BoardResult result = CalibrateBoard(photographs, arguments.board, arguments.options);
+  result.lens.name = arguments.camera;
+  WriteFileAtomically(arguments.lens_file, FormatLens(result.lens));
+  if (arguments.common.json) {
+    std::printf("%s\n", JsonFromResult(result).dump(2).c_str());
+  } else {
+    PrintResult(result);
+    std::printf("%s written\n", arguments.lens_file.c_str());
+  }
+  for (const std::string& remark : result.remarks) {
+    std::fprintf(stderr, "groundglass: %s\n", remark.c_str());
+  }
+  return kExitDone;
+}
+
+void AddBoardCommand(CLI::App* calibrate, int& exit_status) {
+  auto arguments = std::make_shared<BoardArguments>();
+  CLI::App* command = calibrate->add_subcommand(
+      "board", "A lens from photographs of a printed AprilTag board, seen from several sides");
+  command->add_option("photographs", arguments->photographs, "photographs of the board");
+  command->add_option("-o,--out", arguments->lens_file, "the lens file to write");
+  command->add_option(
+      "--print", arguments->print_file, "draw the board to print, instead of calibrating");
+  command->add_option("--columns", arguments->board.columns, "tags in a row")
+      ->capture_default_str();
+  command->add_option("--rows", arguments->board.rows, "tags in a column")->capture_default_str();
+  command->add_option("--tag-size", arguments->board.tag_size, "a black square's edge, in any unit")
+      ->capture_default_str();
+  command->add_option("--gap", arguments->board.gap, "white between two squares, same unit")
+      ->capture_default_str();
+  command->add_option("--first-id", arguments->board.first_id, "number of the top-left tag")
+      ->capture_default_str();
+  command->add_flag("--k2", arguments->options.refine_k2, "free k2 as well: for wide lenses");
+  command->add_option("--camera", arguments->camera, "the tags' camera name that it serves");
+  AddCommonOptions(command, arguments->common);
+  command->callback([arguments, &exit_status] {
+    exit_status = RunWithThreads(arguments->common, [&] {
+      return arguments->print_file.empty() ? CalibrateFromPhotographs(*arguments)
+                                           : PrintBoard(*arguments);
+    });
+  });
+}
+
+}  // namespace
+
+void AddCalibrateCommand(CLI::App& app, int& exit_status) {
+  CLI::App* command =
+      app.add_subcommand("calibrate", "What is true of all photographs of one camera");
+  command->require_subcommand(1);
+  AddBoardCommand(command, exit_status);
+}
 
 }  // namespace groundglass

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/frames.h"
+#include "scene/image.h"
+#include "scene/lens.h"
+
+#include <Eigen/Dense>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// A flat grid of AprilTags of the family tag36h11 (Olson 2011), numbered row by row from the top
+// left. Lengths are in any one unit: a lens does not depend on it.
+// The board's frame: x along the rows, y down the columns, z into the board; its origin is the
+// first tag's top-left black corner.
+struct Board {
+  int columns = 6;
+  int rows = 4;
+  double tag_size = 1;  // edge of a tag's black square
+  double gap = 0.25;    // white between neighbouring black squares
+  int first_id = 0;     // of the top-left tag; the family has 587
+
+  void Check() const;  // throws Error naming the first field out of range
+};
+
+// The four black corners of a board's tag: top left, top right, bottom right, bottom left.
+// `index` counts row by row from 0.
+Eigen::Matrix<double, 2, 4> TagCornersOnBoard(const Board& board, int index);
+
+// The board as a picture to print: black 0, white 255, one channel, a white margin and a line
+// below that says what to measure after printing.
+Image8 DrawBoard(const Board& board);
+
+// A photograph of the board: 8-bit sRGB grey, one channel.
+struct BoardPhotograph {
+  std::string name;
+  Image8 srgb_grey;
+};
+
+struct BoardOptions {
+  // Free the second distortion coefficient as well: for wide lenses, with the board seen up to
+  // the frame's corners.
+  bool refine_k2 = false;
+
+  // A photograph takes part if it shows at least this many of the board's tags.
+  int min_tags = 4;
+
+  // The corners must fit the board this well, else its description or its flatness is at fault.
+  // Pixels.
+  double max_rms_px = 2.0;
+
+  void Check() const;
+};
+
+// What one photograph said.
+struct BoardSighting {
+  std::string name;
+  int num_tags = 0;   // of the board, found and used; 0 if the photograph took no part
+  double rms_px = 0;  // of its corners, each axis apart
+  RigidTransform cam_from_board;
+};
+
+struct BoardResult {
+  Lens lens;                               // deviations are scaled by how well the corners fit
+  std::vector<BoardSighting> photographs;  // in the order given
+  int num_corners = 0;
+  double rms_px = 0;  // over all corners, each axis apart
+  // What would make the lens better known; one line each, for a person.
+  std::vector<std::string> remarks;
+};
+
+// Finds the lens that took these photographs of a board: detects the tags, measures their corners
+// where the fitted black edges meet, starts from homographies (Zhang 2000), and refines the lens
+// and one pose for each photograph with Ceres. Throws Error if the photographs differ in size, if
+// fewer than three show the board, or if the corners do not fit it.
+BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
+                           const Board& board,
+                           const BoardOptions& options = {});
+
+}  // namespace groundglass

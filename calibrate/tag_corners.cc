@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "calibrate/tag_corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace groundglass {
+namespace {
+
+// Crossings are sought this far on either side of an edge at most (pixels); 3 px hold the blur of
+// an ordinary photograph.
+constexpr double kMaxReachPx = 3;
+constexpr double kMinReachPx = 1.2;
+// The levels on either side are averaged over this much beyond the reach (pixels).
+constexpr double kLevelPx = 1;
+constexpr double kProfileStepPx = 0.25;
+// The share of an edge left out at each end, and at least so many pixels: the corners' blur.
+constexpr double kEndShare = 0.1;
+constexpr double kEndPx = 3;
+constexpr int kMinCrossings = 6;
+// Crossings farther than this many spreads from the line are dirt or a finger.
+constexpr double kOutlierSpreads = 3.5;
+
+// Bilinear value; the first pixel's centre is at (0.5, 0.5). Nothing outside the frame.
+std::optional<double> Sample(const ImageF& grey, const Eigen::Vector2d& at_px) {
+  const double x = at_px.x() - 0.5;
+  const double y = at_px.y() - 0.5;
+  const int x0 = static_cast<int>(std::floor(x));
+  const int y0 = static_cast<int>(std::floor(y));
+  if (x0 < 0 || y0 < 0 || x0 + 1 >= grey.width || y0 + 1 >= grey.height) return std::nullopt;
+  const double u = x - x0;
+  const double v = y - y0;
+  const float* top = grey.At(x0, y0);
+  const float* bottom = grey.At(x0, y0 + 1);
+  return (1 - v) * ((1 - u) * top[0] + u * top[1]) + v * ((1 - u) * bottom[0] + u * bottom[1]);
+}
+
+// How far along `outward` (unit length, pixels) from `at_px` black turns into white: the place
+// where an ideal step would have the same area under it as the profile seen.
+std::optional<double> FindCrossing(const ImageF& grey,
+                                   const Eigen::Vector2d& at_px,
+                                   const Eigen::Vector2d& outward,
+                                   double reach_px) {
+  double black = 0;
+  double white = 0;
+  double area = 0;
+  int num_level = 0;
+  const int reach_steps = static_cast<int>(std::lround(reach_px / kProfileStepPx));
+  const int level_steps = static_cast<int>(std::lround(kLevelPx / kProfileStepPx));
+  for (int step = -reach_steps - level_steps; step <= reach_steps + level_steps; ++step) {
+    const std::optional<double> value = Sample(grey, at_px + step * kProfileStepPx * outward);
+    if (!value) return std::nullopt;
+    if (step < -reach_steps) {
+      black += *value;
+      ++num_level;
+    } else if (step > reach_steps) {
+      white += *value;
+    } else {
+      // Trapezoids: the two ends count half.
+      area += *value * (std::abs(step) == reach_steps ? 0.5 : 1.0);
+    }
+  }
+  black /= num_level;
+  white /= num_level;
+  constexpr double kMinContrast = 0.02;  // of full scale, linear light
+  if (white - black < kMinContrast) return std::nullopt;
+  const double white_px = (area - 2 * reach_steps * black) / (white - black) * kProfileStepPx;
+  const double crossing = reach_steps * kProfileStepPx - white_px;
+  if (std::abs(crossing) > 0.8 * reach_px) return std::nullopt;
+  return crossing;
+}
+
+// A line in undistorted pixels: points p with normal . p = offset. The deviations of its two ends
+// from the truth have this covariance for crossings with a noise of 1 px.
+struct EdgeLine {
+  Eigen::Vector2d normal;
+  double offset = 0;
+  Eigen::Matrix2d end_covariance;
+};
+
+// Least squares through the points, without outliers; nothing if too few are left.
+std::optional<EdgeLine> FitLine(std::vector<Eigen::Vector2d> points,
+                                const Eigen::Vector2d& start,
+                                const Eigen::Vector2d& end) {
+  const Eigen::Vector2d along = (end - start).normalized();
+  const Eigen::Vector2d across(-along.y(), along.x());
+  for (int round = 0;; ++round) {
+    const double count = static_cast<double>(points.size());
+    if (count < kMinCrossings) return std::nullopt;
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& point : points) mean += point / count;
+    double along_along = 0;
+    double along_across = 0;
+    for (const Eigen::Vector2d& point : points) {
+      const double s = along.dot(point - mean);
+      along_along += s * s;
+      along_across += s * across.dot(point - mean);
+    }
+    const double slope = along_across / along_along;
+    const auto distance = [&](const Eigen::Vector2d& point) {
+      return std::abs(across.dot(point - mean) - slope * along.dot(point - mean));
+    };
+    std::vector<double> distances;
+    for (const Eigen::Vector2d& point : points) distances.push_back(distance(point));
+    std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
+    const double spread = std::max(1.48 * distances[distances.size() / 2], 0.02);
+    const size_t removed = std::erase_if(points, [&](const Eigen::Vector2d& point) {
+      return distance(point) > kOutlierSpreads * spread;
+    });
+    if (removed > 0 && round < 5) continue;
+
+    EdgeLine line;
+    line.normal = (across - slope * along).normalized();
+    line.offset = line.normal.dot(mean);
+    const double at_start = along.dot(start - mean);
+    const double at_end = along.dot(end - mean);
+    line.end_covariance.setConstant(1 / count);
+    line.end_covariance(0, 0) += at_start * at_start / along_along;
+    line.end_covariance(1, 1) += at_end * at_end / along_along;
+    line.end_covariance(0, 1) += at_start * at_end / along_along;
+    line.end_covariance(1, 0) = line.end_covariance(0, 1);
+    return line;
+  }
+}
+
+}  // namespace
+
+std::optional<TagCorners> MeasureTagCorners(const ImageF& radiance_grey,
+                                            const TagDetection& start,
+                                            double gap_share,
+                                            const Camera& lens) {
+  // Undistorted pixels: normalised coordinates at the focal length's scale.
+  const auto undistort = [&lens](const Eigen::Vector2d& image_px) -> Eigen::Vector2d {
+    const Eigen::Vector3d ray = UnprojectToCam(lens, image_px);
+    return {lens.focal_x_px * ray.x(), lens.focal_y_px * ray.y()};
+  };
+  std::array<EdgeLine, 4> lines;
+  for (int edge = 0; edge < 4; ++edge) {
+    // Edges go round clockwise on the screen, so the white is on the left of the direction.
+    const Eigen::Vector2d from = start.corners_px.col(edge);
+    const Eigen::Vector2d to = start.corners_px.col((edge + 1) % 4);
+    const double length_px = (to - from).norm();
+    const Eigen::Vector2d along = (to - from) / length_px;
+    const Eigen::Vector2d outward(along.y(), -along.x());
+    // The tag's depth across this edge says how wide its black border and the gap appear.
+    const Eigen::Vector2d opposite =
+        0.5 * (start.corners_px.col((edge + 2) % 4) + start.corners_px.col((edge + 3) % 4));
+    const double depth_px = -outward.dot(opposite - 0.5 * (from + to));
+    const double room_px = depth_px * std::min(1.0 / kTagCells, gap_share);
+    const double reach_px = std::min(kMaxReachPx, 0.9 * room_px - kLevelPx);
+    if (reach_px < kMinReachPx) return std::nullopt;
+
+    const double end_px = std::max(kEndPx, kEndShare * length_px);
+    std::vector<Eigen::Vector2d> crossings;
+    for (double s = end_px; s <= length_px - end_px; s += 1) {
+      const Eigen::Vector2d on_edge = from + s * along;
+      if (const auto crossing = FindCrossing(radiance_grey, on_edge, outward, reach_px)) {
+        crossings.push_back(undistort(on_edge + *crossing * outward));
+      }
+    }
+    if (static_cast<double>(crossings.size()) < 0.5 * (length_px - 2 * end_px)) {
+      return std::nullopt;
+    }
+    const auto line = FitLine(std::move(crossings), undistort(from), undistort(to));
+    if (!line) return std::nullopt;
+    lines[static_cast<size_t>(edge)] = *line;
+  }
+
+  TagCorners result;
+  result.id = start.id;
+  // From the deviations of the lines' ends (start and end of edge 0, 1, 2, 3) to the corners'.
+  Eigen::Matrix<double, 8, 8> corners_from_ends = Eigen::Matrix<double, 8, 8>::Zero();
+  Eigen::Matrix<double, 8, 8> end_covariance = Eigen::Matrix<double, 8, 8>::Zero();
+  for (int corner = 0; corner < 4; ++corner) {
+    const int before = (corner + 3) % 4;  // the edge that ends here
+    const EdgeLine& ending = lines[static_cast<size_t>(before)];
+    const EdgeLine& starting = lines[static_cast<size_t>(corner)];
+    Eigen::Matrix2d normals;
+    normals << ending.normal.transpose(), starting.normal.transpose();
+    if (std::abs(normals.determinant()) < 0.05) return std::nullopt;
+    const Eigen::Matrix2d point_from_offsets = normals.inverse();
+    const Eigen::Vector2d undistorted =
+        point_from_offsets * Eigen::Vector2d(ending.offset, starting.offset);
+    const auto image_px = ProjectFromCam(
+        lens, {undistorted.x() / lens.focal_x_px, undistorted.y() / lens.focal_y_px, 1});
+    if (!image_px) return std::nullopt;
+    result.corners_px.segment<2>(2 * corner) = *image_px;
+    corners_from_ends.block<2, 1>(2 * corner, 2 * before + 1) = point_from_offsets.col(0);
+    corners_from_ends.block<2, 1>(2 * corner, 2 * corner) = point_from_offsets.col(1);
+    end_covariance.block<2, 2>(2 * corner, 2 * corner) = starting.end_covariance;
+  }
+  result.information =
+      (corners_from_ends * end_covariance * corners_from_ends.transpose()).inverse();
+  return result;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/image.h"
+
+#include <Eigen/Dense>
+
+#include <vector>
+
+namespace groundglass {
+
+// One AprilTag of the family tag36h11 in a photograph: the image points (pixels) of its black
+// square's corners, in the tag's own order: top left, top right, bottom right, bottom left.
+struct TagDetection {
+  int id = 0;
+  Eigen::Matrix<double, 2, 4> corners_px;
+};
+
+// Finds tags in 8-bit sRGB grey, sorted by id. An id that is seen twice is left out, since nobody
+// can tell which one is meant. Corners are good to a few tenths of a pixel.
+std::vector<TagDetection> DetectTags(const Image8& srgb_grey);
+
+// A tag's 8 x 8 cells, black border included: true is white. Throws Error beyond the family's end.
+constexpr int kTagCells = 8;
+constexpr int kNumTagIds = 587;
+using TagPattern = Eigen::Matrix<bool, kTagCells, kTagCells>;  // (row, column)
+TagPattern GetTagPattern(int id);
+
+}  // namespace groundglass
