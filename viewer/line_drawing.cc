@@ -61,11 +61,17 @@ void LayOver(Image8& srgb8, const CoverageMask& coverage, Srgb8Colour colour, do
   for (size_t i = 0; i < coverage.values.size(); ++i) {
     const float share = coverage.values[i] * static_cast<float>(opacity);
     if (share <= 0) continue;
-    uint8_t* pixel = &srgb8.values[3 * i];
+    uint8_t* pixel = &srgb8.values[static_cast<size_t>(srgb8.channels) * i];
+    float colour_share = share;
+    if (srgb8.channels == 4) {
+      const float alpha = share + (1 - share) * pixel[3] / 255.0f;
+      colour_share = share / alpha;
+      pixel[3] = static_cast<uint8_t>(std::lround(255 * alpha));
+    }
     for (int channel = 0; channel < 3; ++channel) {
-      const float mixed =
-          pixel[channel] + share * (static_cast<float>(colour[channel]) - pixel[channel]);
-      pixel[channel] = static_cast<uint8_t>(std::lround(mixed));
+      const float below = pixel[channel];
+      pixel[channel] =
+          static_cast<uint8_t>(std::lround(below + colour_share * (colour[channel] - below)));
     }
   }
 }

@@ -24,7 +24,8 @@ void AddLine(CoverageMask& coverage,
              const Eigen::Vector2d& end_px,
              double width_px);
 
-// Lays one colour over an sRGB picture of 3 channels, where covered.
+// Lays one colour over an sRGB picture of 3 channels, or of 4 with alpha not premultiplied, where
+// covered.
 void LayOver(Image8& srgb8, const CoverageMask& coverage, Srgb8Colour colour, double opacity);
 
 // Antialiased text whose baseline starts at `baseline_px` (image); capitals are cap_height_px high.

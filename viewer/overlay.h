@@ -23,10 +23,4 @@ Image8 DrawOverlay(const Image8& photograph_srgb8,
                    const Camera& measured,
                    const Camera* corrected);
 
-// A span of the model's drawing as the camera's distortion bends it: image points, px, no further
-// apart than a few pixels along a bent line; two points where lines stay straight.
-std::vector<Eigen::Vector2d> ProjectSpan(const Camera& camera,
-                                         const Eigen::Vector3d& start_in_world,
-                                         const Eigen::Vector3d& end_in_world);
-
 }  // namespace groundglass

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/camera.h"
+#include "scene/polygon_model.h"
+
+#include <vector>
+
+namespace groundglass {
+
+// The camera for a frame of another shape: the horizontal view is kept, pixels become square, the
+// principal point keeps its place relative to the frame's middle, and the picture gains or loses at
+// top and bottom.
+Camera ReframedCamera(const Camera& camera, int width_px, int height_px);
+
+// A smooth flight through the cameras, in order: Catmull-Rom through positions and lenses, the
+// same construction with slerp in place of lerp through rotations, at an even pace that starts and
+// ends gently. First and last frame are the first and last camera. All cameras must have the
+// frame size of the first; Error if there are none, or fewer than one frame.
+//
+// Catmull and Rom 1974; centripetal knots: Yuksel, Schaefer and Keyser 2011; the pyramid on the
+// sphere: Schlag, Graphics Gems II, 1991.
+std::vector<Camera> MakeFlight(const std::vector<Camera>& cameras, int num_frames);
+
+struct OrbitOptions {
+  int width_px = 1280;
+  int height_px = 720;
+  double view_angle_deg = 45;      // horizontal
+  double height_deg = 18;          // of the camera above the model's middle, as seen from there
+  double first_bearing_deg = 180;  // where the camera first stands: 180 is to the south
+  void Check() const;              // throws Error naming the first field out of range
+};
+
+// Once around the model, clockwise seen from above, always looking at its middle; the whole model
+// stays in the frame. The frame after the last would be the first again.
+std::vector<Camera> MakeOrbit(const PolygonModel& model,
+                              int num_frames,
+                              const OrbitOptions& options = {});
+
+}  // namespace groundglass

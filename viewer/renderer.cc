@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "viewer/renderer.h"
+
+#include "scene/error.h"
+#include "scene/feature_edges.h"
+#include "scene/image_io.h"
+#include "scene/visibility.h"
+#include "viewer/edge_drawing.h"
+#include "viewer/face_numbers.h"
+#include "viewer/gl_context.h"
+#include "viewer/gl_functions.h"
+#include "viewer/pinhole_frame.h"
+#include "viewer/render_mesh.h"
+#include "viewer/render_target.h"
+#include "viewer/shaders.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace groundglass {
+namespace {
+
+void CheckRange(double value, double least, double most, const char* field) {
+  if (value >= least && value <= most) return;
+  throw Error("render options: " + std::string(field) + " must be from " +
+              std::to_string(static_cast<int>(least)) + " to " +
+              std::to_string(static_cast<int>(most)));
+}
+
+Image8 HalvedUntilItFits(const Image8& page, int max_size_px) {
+  int width = page.width;
+  int height = page.height;
+  while (width > max_size_px || height > max_size_px) {
+    width = std::max(1, width / 2);
+    height = std::max(1, height / 2);
+  }
+  Image8 halved(width, height, 3);
+  const cv::Mat from(page.height, page.width, CV_8UC3, const_cast<uint8_t*>(page.values.data()));
+  cv::Mat to(height, width, CV_8UC3, halved.values.data());
+  cv::resize(from, to, to.size(), 0, 0, cv::INTER_AREA);
+  return halved;
+}
+
+// Alpha is a pixel's covered share; its colour was averaged with black where not covered, in
+// linear light.
+void UndoPremultiplication(Image8& rgba) {
+  for (size_t i = 0; i < rgba.values.size(); i += 4) {
+    const uint8_t alpha = rgba.values[i + 3];
+    if (alpha == 0 || alpha == 255) continue;
+    for (int channel = 0; channel < 3; ++channel) {
+      const float linear = LinearFromSrgb(rgba.values[i + channel] / 255.0f) * 255.0f / alpha;
+      rgba.values[i + channel] =
+          static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(std::min(1.0f, linear))));
+    }
+  }
+}
+
+// Horizontal directions of the sky at the corners of clip space, for kFrameVertexShader.
+Eigen::Matrix3d WorldFromClip(const Camera& pinhole) {
+  Eigen::Matrix3d cam_from_clip = Eigen::Matrix3d::Zero();
+  cam_from_clip(0, 0) = pinhole.width_px / (2 * pinhole.focal_x_px);
+  cam_from_clip(0, 2) = (pinhole.width_px / 2.0 - pinhole.center_x_px) / pinhole.focal_x_px;
+  cam_from_clip(1, 1) = pinhole.height_px / (2 * pinhole.focal_y_px);
+  cam_from_clip(1, 2) = (pinhole.height_px / 2.0 - pinhole.center_y_px) / pinhole.focal_y_px;
+  cam_from_clip(2, 2) = 1;
+  return pinhole.cam_from_world.rotation.transpose() * cam_from_clip;
+}
+
+}  // namespace
+
+void RenderOptions::Check() const {
+  if (multisamples != 1 && multisamples != 4) {
+    throw Error("render options: multisamples must be 1 or 4");
+  }
+  CheckRange(supersampling, 1, 4, "supersampling");
+  CheckRange(anisotropy, 1, 16, "anisotropy");
+  CheckRange(sun_bearing_deg, -360, 360, "sun_bearing_deg");
+  CheckRange(sun_height_deg, 0, 90, "sun_height_deg");
+}
+
+struct Renderer::Impl {
+  std::unique_ptr<GlContext> context = MakeOsMesaContext();
+  GlFunctions gl;
+  PolygonModel model;
+  RenderMesh mesh;
+  std::vector<std::string> warnings;
+  int max_frame_px = 0;
+
+  GlProgram face_program;
+  GlProgram label_program;
+  GlProgram sky_program;
+  GlProgram resolve_program;
+  GlBuffer vertex_buffer;
+  GlVertexArray vertex_array;
+  GlVertexArray frame_array;
+  std::vector<GlTexture> pages;
+  GlTexture grid;
+  RenderTarget multisampled;
+  RenderTarget drawn;
+  RenderTarget resolved;
+  RenderTarget labels;
+
+  // For the edges; made when they are first drawn.
+  std::vector<ModelEdge> edges;
+  std::optional<Visibility> visibility;
+
+  Impl(const TexturedModel& textured, const RendererOptions& options)
+      : model(textured.model), mesh(MakeRenderMesh(textured)) {
+    context->MakeCurrent();
+    gl = FindGlFunctions(*context);
+    face_program = GlProgram(gl, kFaceVertexShader, kFaceFragmentShader);
+    label_program = GlProgram(gl, kFaceVertexShader, kLabelFragmentShader);
+    sky_program = GlProgram(gl, kFrameVertexShader, kSkyFragmentShader);
+    resolve_program = GlProgram(gl, kFrameVertexShader, kResolveFragmentShader);
+    GLint max_texture_px = 0;
+    GLint max_renderbuffer_px = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &max_texture_px);
+    gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &max_renderbuffer_px);
+    max_frame_px = std::min(max_texture_px, max_renderbuffer_px);
+    UploadVertices();
+    const int max_page_px = std::min<int>(options.max_page_size_px, max_texture_px);
+    for (const TexturePage& page : textured.pages) UploadPage(page.srgb8, max_page_px);
+    frame_array = GlVertexArray(gl);
+    grid = GlTexture(gl);
+    gl.FrontFace(GL_CW);  // see ClipFromCam
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.Enable(GL_FRAMEBUFFER_SRGB);
+  }
+  ~Impl() { context->MakeCurrent(); }
+
+  void UploadVertices() {
+    vertex_array = GlVertexArray(gl);
+    vertex_buffer = GlBuffer(gl);
+    gl.BindVertexArray(vertex_array.Name());
+    gl.BindBuffer(GL_ARRAY_BUFFER, vertex_buffer.Name());
+    gl.BufferData(GL_ARRAY_BUFFER,
+                  static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(RenderVertex)),
+                  mesh.vertices.data(),
+                  GL_STATIC_DRAW);
+    const auto set = [&](GLuint location, int size, size_t offset) {
+      gl.EnableVertexAttribArray(location);
+      gl.VertexAttribPointer(location,
+                             size,
+                             GL_FLOAT,
+                             GL_FALSE,
+                             sizeof(RenderVertex),
+                             reinterpret_cast<const void*>(offset));
+    };
+    set(0, 3, offsetof(RenderVertex, position));
+    set(1, 3, offsetof(RenderVertex, normal));
+    set(2, 2, offsetof(RenderVertex, on_page));
+    gl.EnableVertexAttribArray(3);
+    gl.VertexAttribIPointer(3,
+                            1,
+                            GL_UNSIGNED_INT,
+                            sizeof(RenderVertex),
+                            reinterpret_cast<const void*>(offsetof(RenderVertex, face)));
+  }
+
+  void UploadPage(const Image8& page, int max_size_px) {
+    if (page.channels != 3 || page.Empty()) {
+      throw Error("viewer: texture page " + std::to_string(pages.size() + 1) +
+                  " is empty or has not 3 channels");
+    }
+    Image8 halved;
+    const Image8* shown = &page;
+    if (page.width > max_size_px || page.height > max_size_px) {
+      halved = HalvedUntilItFits(page, max_size_px);
+      shown = &halved;
+      warnings.push_back("texture page " + std::to_string(pages.size() + 1) + " is shown at " +
+                         std::to_string(halved.width) + " x " + std::to_string(halved.height) +
+                         " in place of " + std::to_string(page.width) + " x " +
+                         std::to_string(page.height) + ": OpenGL takes no more than " +
+                         std::to_string(max_size_px));
+    }
+    pages.emplace_back(gl);
+    gl.BindTexture(GL_TEXTURE_2D, pages.back().Name());
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.TexImage2D(GL_TEXTURE_2D,
+                  0,
+                  GL_SRGB8_ALPHA8,
+                  shown->width,
+                  shown->height,
+                  0,
+                  GL_RGB,
+                  GL_UNSIGNED_BYTE,
+                  shown->values.data());
+    gl.GenerateMipmap(GL_TEXTURE_2D);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  }
+
+  void CheckFrame(const Camera& pinhole) const {
+    if (pinhole.width_px >= 1 && pinhole.height_px >= 1 && pinhole.width_px <= max_frame_px &&
+        pinhole.height_px <= max_frame_px) {
+      return;
+    }
+    throw Error("viewer: a frame of " + std::to_string(pinhole.width_px) + " x " +
+                std::to_string(pinhole.height_px) + " cannot be drawn; from 1 to " +
+                std::to_string(max_frame_px) + " px each way can, supersampling included");
+  }
+
+  void SetClip(const GlProgram& program, const Camera& pinhole) {
+    const DepthRange range = FindDepthRange(mesh, pinhole);
+    Eigen::Matrix4d cam_from_local = Eigen::Matrix4d::Identity();
+    cam_from_local.topLeftCorner<3, 3>() = pinhole.cam_from_world.rotation;
+    cam_from_local.topRightCorner<3, 1>() = pinhole.cam_from_world * mesh.origin_in_world;
+    const Eigen::Matrix4f clip_from_local =
+        (ClipFromCam(pinhole, range.near_depth, range.far_depth) * cam_from_local).cast<float>();
+    gl.UniformMatrix4fv(program.Uniform("clip_from_local"), 1, GL_FALSE, clip_from_local.data());
+  }
+
+  void BindTarget(const RenderTarget& target) {
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.Name());
+    gl.Viewport(0, 0, target.width, target.height);
+  }
+
+  void DrawSky(const Camera& pinhole) {
+    sky_program.Use();
+    const Eigen::Matrix3f world_from_clip = WorldFromClip(pinhole).cast<float>();
+    gl.UniformMatrix3fv(
+        sky_program.Uniform("world_from_clip"), 1, GL_FALSE, world_from_clip.data());
+    gl.BindVertexArray(frame_array.Name());
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  void DrawFaces(const Camera& pinhole, const RenderOptions& options) {
+    face_program.Use();
+    SetClip(face_program, pinhole);
+    const double bearing = RadiansFromDegrees(options.sun_bearing_deg);
+    const double height = RadiansFromDegrees(options.sun_height_deg);
+    gl.Uniform3f(face_program.Uniform("sun_direction"),
+                 static_cast<float>(std::sin(bearing) * std::cos(height)),
+                 static_cast<float>(std::cos(bearing) * std::cos(height)),
+                 static_cast<float>(std::sin(height)));
+    gl.Uniform1i(face_program.Uniform("page"), 0);
+    gl.Uniform1i(face_program.Uniform("max_taps"), options.anisotropy);
+    gl.BindVertexArray(vertex_array.Name());
+    gl.Enable(GL_DEPTH_TEST);
+    gl.ActiveTexture(GL_TEXTURE0);
+    for (const RenderBatch& batch : mesh.batches) {
+      int mode = 3;
+      if (options.mode == DrawMode::kTextured) mode = batch.page >= 0 ? 0 : 1;
+      if (options.mode == DrawMode::kShaded) mode = 2;
+      gl.Uniform1i(face_program.Uniform("mode"), mode);
+      if (mode == 0) gl.BindTexture(GL_TEXTURE_2D, pages[batch.page].Name());
+      gl.DrawArrays(GL_TRIANGLES, batch.first_vertex, batch.num_vertices);
+    }
+    gl.Disable(GL_DEPTH_TEST);
+  }
+
+  // Sky and faces into `drawn`, one sample for each of its pixels.
+  void DrawPinhole(const Camera& pinhole, const RenderOptions& options) {
+    const bool multi = options.multisamples > 1;
+    FitTarget(gl, drawn, pinhole.width_px, pinhole.height_px, 1, TargetKind::kColourAndDepth);
+    if (multi) {
+      FitTarget(gl,
+                multisampled,
+                pinhole.width_px,
+                pinhole.height_px,
+                options.multisamples,
+                TargetKind::kColourAndDepth);
+    }
+    BindTarget(multi ? multisampled : drawn);
+    const float ground = options.background == Background::kTransparent ? 0.0f : 1.0f;
+    const float clear_colour[4] = {ground, ground, ground, ground};
+    const float clear_depth = 1;
+    gl.ClearBufferfv(GL_COLOR, 0, clear_colour);
+    gl.ClearBufferfv(GL_DEPTH, 0, &clear_depth);
+    if (options.background == Background::kSky) DrawSky(pinhole);
+    if (options.mode != DrawMode::kWireframe) DrawFaces(pinhole, options);
+    if (multi) {
+      gl.BindFramebuffer(GL_READ_FRAMEBUFFER, multisampled.framebuffer.Name());
+      gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn.framebuffer.Name());
+      gl.BlitFramebuffer(0,
+                         0,
+                         pinhole.width_px,
+                         pinhole.height_px,
+                         0,
+                         0,
+                         pinhole.width_px,
+                         pinhole.height_px,
+                         GL_COLOR_BUFFER_BIT,
+                         GL_NEAREST);
+    }
+  }
+
+  // `drawn`, averaged and bent, into `resolved`.
+  void Resolve(const Camera& camera, const PinholeFrame& frame, int samples) {
+    FitTarget(gl, resolved, camera.width_px, camera.height_px, 1, TargetKind::kColour);
+    BindTarget(resolved);
+    resolve_program.Use();
+    gl.Uniform1i(resolve_program.Uniform("drawn"), 0);
+    gl.Uniform1i(resolve_program.Uniform("grid"), 1);
+    gl.Uniform1i(resolve_program.Uniform("samples"), samples);
+    gl.Uniform1i(resolve_program.Uniform("bent"), frame.is_bent ? 1 : 0);
+    gl.Uniform1f(resolve_program.Uniform("grid_step"), PinholeFrame::kGridStep);
+    gl.Uniform2f(resolve_program.Uniform("grid_size"),
+                 static_cast<float>(frame.grid_width),
+                 static_cast<float>(frame.grid_height));
+    gl.ActiveTexture(GL_TEXTURE1);
+    gl.BindTexture(GL_TEXTURE_2D, grid.Name());
+    if (frame.is_bent) {
+      gl.TexImage2D(GL_TEXTURE_2D,
+                    0,
+                    GL_RG32F,
+                    frame.grid_width,
+                    frame.grid_height,
+                    0,
+                    GL_RG,
+                    GL_FLOAT,
+                    frame.grid_px.data());
+      gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+      gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+      gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+      gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    }
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_2D, drawn.texture.Name());
+    gl.BindVertexArray(frame_array.Name());
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  Image8 ReadPicture(const RenderTarget& target, bool with_alpha) {
+    Image8 rgba(target.width, target.height, 4);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.Name());
+    gl.ReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.values.data());
+    if (with_alpha) {
+      UndoPremultiplication(rgba);
+      return rgba;
+    }
+    Image8 rgb(target.width, target.height, 3);
+    const cv::Mat from(target.height, target.width, CV_8UC4, rgba.values.data());
+    cv::Mat to(target.height, target.width, CV_8UC3, rgb.values.data());
+    cv::cvtColor(from, to, cv::COLOR_RGBA2RGB);
+    return rgb;
+  }
+
+  void DrawEdgesOver(Image8& picture, const Camera& camera, const RenderOptions& options) {
+    if (!visibility) {
+      visibility.emplace(model);
+      edges = FindModelEdges(model);
+    }
+    const double unit = LineUnit(picture);
+    EdgeStyle style;
+    style.width_px = 1.2 * unit;
+    style.silhouette_width_px = 2.0 * unit;
+    style.opacity = options.mode == DrawMode::kWireframe ? 1 : 0.8;
+    DrawEdges(picture,
+              FindVisibleSpans(model, edges, *visibility, camera, EdgeMargin(style)),
+              camera,
+              style);
+  }
+};
+
+Renderer::Renderer(const TexturedModel& model, const RendererOptions& options)
+    : impl_(std::make_unique<Impl>(model, options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+const std::vector<std::string>& Renderer::Warnings() const { return impl_->warnings; }
+
+Image8 Renderer::Render(const Camera& camera, const RenderOptions& options) {
+  options.Check();
+  Impl& impl = *impl_;
+  impl.context->MakeCurrent();
+  const PinholeFrame frame = MakePinholeFrame(camera, options.supersampling, impl.max_frame_px);
+  impl.CheckFrame(frame.pinhole);
+  impl.DrawPinhole(frame.pinhole, options);
+  const bool as_drawn = !frame.is_bent && options.supersampling == 1;
+  if (!as_drawn) impl.Resolve(camera, frame, options.supersampling);
+  Image8 picture = impl.ReadPicture(as_drawn ? impl.drawn : impl.resolved,
+                                    options.background == Background::kTransparent);
+  const bool with_numbers = options.mode == DrawMode::kLabels;
+  if (options.edges || with_numbers || options.mode == DrawMode::kWireframe) {
+    impl.DrawEdgesOver(picture, camera, options);
+  }
+  if (with_numbers) DrawFaceNumbers(picture, RenderLabels(camera));
+  return picture;
+}
+
+Image16 Renderer::RenderLabels(const Camera& camera) {
+  Impl& impl = *impl_;
+  const GlFunctions& gl = impl.gl;
+  impl.context->MakeCurrent();
+  const PinholeFrame frame = MakePinholeFrame(camera, 1, impl.max_frame_px);
+  const Camera& pinhole = frame.pinhole;
+  impl.CheckFrame(pinhole);
+  FitTarget(gl, impl.labels, pinhole.width_px, pinhole.height_px, 1, TargetKind::kLabelsAndDepth);
+  impl.BindTarget(impl.labels);
+  const GLuint no_face[4] = {0, 0, 0, 0};
+  const float clear_depth = 1;
+  gl.ClearBufferuiv(GL_COLOR, 0, no_face);
+  gl.ClearBufferfv(GL_DEPTH, 0, &clear_depth);
+  impl.label_program.Use();
+  impl.SetClip(impl.label_program, pinhole);
+  gl.BindVertexArray(impl.vertex_array.Name());
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(impl.mesh.vertices.size()));
+  gl.Disable(GL_DEPTH_TEST);
+  std::vector<GLuint> drawn(static_cast<size_t>(pinhole.width_px) * pinhole.height_px);
+  gl.ReadPixels(
+      0, 0, pinhole.width_px, pinhole.height_px, GL_RED_INTEGER, GL_UNSIGNED_INT, drawn.data());
+
+  Image16 labels(camera.width_px, camera.height_px, 1);
+  for (int y = 0; y < camera.height_px; ++y) {
+    for (int x = 0; x < camera.width_px; ++x) {
+      int column = x;
+      int row = y;
+      if (frame.is_bent) {
+        const Eigen::Vector3d ray = UnprojectToCam(camera, {x + 0.5, y + 0.5});
+        const auto in_pinhole_px = ProjectFromCam(pinhole, ray);
+        column = static_cast<int>(std::floor(in_pinhole_px->x()));
+        row = static_cast<int>(std::floor(in_pinhole_px->y()));
+        if (column < 0 || row < 0 || column >= pinhole.width_px || row >= pinhole.height_px) {
+          continue;
+        }
+      }
+      *labels.At(x, y) =
+          static_cast<uint16_t>(drawn[static_cast<size_t>(row) * pinhole.width_px + column]);
+    }
+  }
+  return labels;
+}
+
+Image8 Render(const TexturedModel& model, const Camera& camera, const RenderOptions& options) {
+  return Renderer(model).Render(camera, options);
+}
+
+}  // namespace groundglass
