@@ -28,14 +28,16 @@ std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
     if (length_px < 2 * spacing_px) continue;
     const int count = static_cast<int>(length_px / spacing_px);
     const Eigen::Vector3d direction = (span.end_in_world - span.start_in_world).normalized();
+    const ModelEdge& edge = edge_model.edges[span.edge];
+    const double edge_length = (edge.end_in_world - edge.start_in_world).norm();
     for (int i = 0; i < count; ++i) {
       const double s = (i + 0.5) / count;
       const double t = s * start_in_cam.z() /
                        (end_in_cam.z() + s * (start_in_cam.z() - end_in_cam.z()));
-      samples.push_back({span.start_in_world + t * (span.end_in_world - span.start_in_world),
-                         direction,
-                         span.edge,
-                         length_px / count});
+      const Eigen::Vector3d point =
+          span.start_in_world + t * (span.end_in_world - span.start_in_world);
+      const double along = 2 * (point - edge.start_in_world).norm() / edge_length - 1;
+      samples.push_back({point, direction, span.edge, along, length_px / count});
     }
   }
   return samples;

@@ -27,6 +27,7 @@ struct EdgeSample {
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_in_world = Eigen::Vector3d::UnitX();  // along the edge, unit length
   int edge = -1;          // in EdgeModel::edges
+  double along = 0;       // where on the edge: -1 at its start, 1 at its end
   double spacing_px = 0;  // the length of edge it stands for
 };
 

@@ -72,7 +72,9 @@ std::vector<AlignedSample> MatchSamples(const std::vector<EdgeSample>& samples,
     sample.offset_px = offset_sum / weight_sum;
     const double votes = std::min(1.0, samples[i].spacing_px / options.vote_length_px);
     sample.precision = weight_sum / likelihood * votes / (width_px * width_px);
-    sample.bias_px = options.edge_offset_m * units_per_metre * projected[i].px_per_unit;
+    const double px_per_metre = units_per_metre * projected[i].px_per_unit;
+    sample.bias_px = {options.edge_offset_m * px_per_metre,
+                      options.edge_turn_m * px_per_metre * samples[i].along};
   }
   return aligned;
 }

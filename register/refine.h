@@ -24,8 +24,10 @@ struct RefineOptions {
   double gate_deg = 25;
   // Share of samples whose edge the photograph does not show.
   double outlier_share = 0.15;
-  // One sigma of how far a model edge may lie from the building's, metres.
+  // One sigma of how far a model edge may lie from the building's as a whole, and of how far its
+  // ends may lie apart from that, metres.
   double edge_offset_m = 0.037;
+  double edge_turn_m = 0.037;
   // The least noise of an edge's position that is believed, px.
   double min_noise_px = 0.3;
 };
