@@ -74,6 +74,13 @@ void ReadFaceLine(const std::filesystem::path& file, const TextLine& line, ObjRe
 
 }  // namespace
 
+std::string ObjGroupName(std::string name) {
+  for (char& c : name) {
+    if (c == '#' || c == '\n' || c == '\r') c = ' ';
+  }
+  return name.empty() ? "default" : name;
+}
+
 ObjReading ReadObj(const std::filesystem::path& file) {
   ObjReading reading;
   const std::string text = ReadTextFile(file);

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,5 +27,8 @@ struct ObjReading {
 
 // Throws Error naming file and line. Geometry of the faces is not yet checked.
 ObjReading ReadObj(const std::filesystem::path& file);
+
+// A face's name as a group's: on one line, without the comment mark; "default" for none.
+std::string ObjGroupName(std::string name);
 
 }  // namespace groundglass

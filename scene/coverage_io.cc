@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/coverage.h"
+
+#include <nlohmann/json.hpp>
+
+namespace groundglass {
+
+std::string FormatCoverage(const Coverage& coverage) {
+  // Ordered, so that a person finds the keys where the docs have them.
+  using Json = nlohmann::ordered_json;
+  Json document;
+  document["covered_share"] = coverage.CoveredShare();
+  document["faces"] = Json::array();
+  for (const FaceCoverage& face : coverage.faces) {
+    Json sources = Json::array();
+    for (const FaceCoverage::Source& source : face.sources) {
+      sources.push_back({{"photograph", source.photograph},
+                         {"texels", source.num_texels},
+                         {"footprint", source.footprint}});
+    }
+    document["faces"].push_back({{"face", face.face + 1},
+                                 {"name", face.name},
+                                 {"area", face.area},
+                                 {"covered_area", face.covered_area},
+                                 {"texels", face.num_texels},
+                                 {"covered_texels", face.num_covered_texels},
+                                 {"texel_size", face.texel_size},
+                                 {"sources", std::move(sources)}});
+  }
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace groundglass

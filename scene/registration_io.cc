@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/registration_io.h"
+
+#include "scene/error.h"
+#include "scene/view_io.h"
+
+#include <nlohmann/json.hpp>
+
+namespace groundglass {
+namespace {
+
+// Ordered, so that a person finds the keys where the docs have them.
+using Json = nlohmann::ordered_json;
+
+struct SigmaKey {
+  const char* name;
+  std::optional<double> TagSigmas::*member;
+};
+constexpr SigmaKey kSigmaKeys[] = {
+    {"sigma_position", &TagSigmas::position},
+    {"sigma_height", &TagSigmas::height},
+    {"sigma_lookat", &TagSigmas::lookat},
+    {"sigma_roll", &TagSigmas::roll_deg},
+    {"sigma_v", &TagSigmas::view_angle_deg},
+    {"sigma_a", &TagSigmas::aspect},
+    {"sigma_shift", &TagSigmas::shift},
+    {"sigma_k1", &TagSigmas::k1},
+};
+
+Json JsonFromTag(const ViewTag& tag) {
+  Json json;
+  for (int index = 0; index < kNumTagKeys; ++index) {
+    json[std::string(kTagKeyNames[index])] = GetTagValue(tag, static_cast<TagKey>(index));
+  }
+  for (const SigmaKey& key : kSigmaKeys) {
+    if (const std::optional<double>& sigma = tag.sigmas.*(key.member)) json[key.name] = *sigma;
+  }
+  if (!tag.camera.empty()) json["camera"] = tag.camera;
+  return json;
+}
+
+ViewTag TagFromJson(const Json& json) {
+  ViewTag tag;
+  for (int index = 0; index < kNumTagKeys; ++index) {
+    SetTagValue(
+        tag, static_cast<TagKey>(index), json.at(std::string(kTagKeyNames[index])).get<double>());
+  }
+  for (const SigmaKey& key : kSigmaKeys) {
+    if (json.contains(key.name)) tag.sigmas.*(key.member) = json.at(key.name).get<double>();
+  }
+  tag.camera = json.value("camera", "");
+  return tag;
+}
+
+Json JsonFromParameters(const CameraParameters& parameters) {
+  Json json;
+  for (int index = 0; index < kNumCameraParameters; ++index) {
+    json[std::string(kCameraParameterNames[index])] = parameters[index];
+  }
+  return json;
+}
+
+CameraParameters ParametersFromJson(const Json& json) {
+  CameraParameters parameters;
+  for (int index = 0; index < kNumCameraParameters; ++index) {
+    parameters[index] = json.at(std::string(kCameraParameterNames[index])).get<double>();
+  }
+  return parameters;
+}
+
+Verdict VerdictFromName(const std::string& name) {
+  for (const Verdict verdict : {Verdict::kAccepted, Verdict::kReview, Verdict::kRejected}) {
+    if (VerdictName(verdict) == name) return verdict;
+  }
+  throw Error("verdict '" + name + "' is not accepted, review or rejected");
+}
+
+Json JsonFromRegistration(const Registration& registration) {
+  Json json;
+  json["name"] = registration.name;
+  json["verdict"] = VerdictName(registration.verdict);
+  json["reasons"] = registration.reasons;
+  json["width_px"] = registration.width_px;
+  json["height_px"] = registration.height_px;
+  json["measured"] = JsonFromTag(registration.measured);
+  json["corrected"] = JsonFromTag(registration.corrected);
+  json["sigmas"] = JsonFromParameters(registration.sigmas);
+  json["prior_sigmas"] = JsonFromParameters(registration.prior_sigmas);
+  json["parameters"] = kCameraParameterNames;
+  json["covariance"] = Json::array();
+  for (int row = 0; row < kNumCameraParameters; ++row) {
+    Json values = Json::array();
+    for (int column = 0; column < kNumCameraParameters; ++column) {
+      values.push_back(registration.covariance(row, column));
+    }
+    json["covariance"].push_back(std::move(values));
+  }
+  json["undetermined"] = registration.undetermined;
+  json["num_samples"] = registration.num_samples;
+  json["rms_px"] = registration.rms_px;
+  json["score_nats"] = registration.score_nats;
+  json["margin_nats"] = registration.margin_nats;
+  json["moved_px"] = registration.moved_px;
+  return json;
+}
+
+Registration RegistrationFromJson(const Json& json) {
+  Registration registration;
+  registration.name = json.at("name").get<std::string>();
+  registration.verdict = VerdictFromName(json.at("verdict").get<std::string>());
+  registration.reasons = json.at("reasons").get<std::vector<std::string>>();
+  registration.width_px = json.at("width_px").get<int>();
+  registration.height_px = json.at("height_px").get<int>();
+  if (registration.width_px < 1 || registration.height_px < 1) {
+    throw Error("photograph '" + registration.name + "': width_px and height_px must be above 0");
+  }
+  registration.measured = TagFromJson(json.at("measured"));
+  registration.corrected = TagFromJson(json.at("corrected"));
+  for (const ViewTag* tag : {&registration.measured, &registration.corrected}) {
+    if (const std::optional<TagFault> fault = FindTagFault(*tag)) {
+      throw Error("photograph '" + registration.name + "': key '" + fault->key +
+                  "': " + fault->message);
+    }
+  }
+  registration.sigmas = ParametersFromJson(json.at("sigmas"));
+  registration.prior_sigmas = ParametersFromJson(json.at("prior_sigmas"));
+  const Json& covariance = json.at("covariance");
+  for (int row = 0; row < kNumCameraParameters; ++row) {
+    for (int column = 0; column < kNumCameraParameters; ++column) {
+      registration.covariance(row, column) = covariance.at(row).at(column).get<double>();
+    }
+  }
+  registration.undetermined = json.at("undetermined").get<std::vector<std::string>>();
+  registration.num_samples = json.at("num_samples").get<int>();
+  registration.rms_px = json.at("rms_px").get<double>();
+  registration.score_nats = json.at("score_nats").get<double>();
+  registration.margin_nats = json.at("margin_nats").get<double>();
+  registration.moved_px = json.at("moved_px").get<double>();
+  return registration;
+}
+
+}  // namespace
+
+std::string FormatRegistrations(const std::vector<Registration>& registrations) {
+  Json document;
+  document["photographs"] = Json::array();
+  for (const Registration& registration : registrations) {
+    document["photographs"].push_back(JsonFromRegistration(registration));
+  }
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<Registration> ReadRegistrations(const std::filesystem::path& file) {
+  std::vector<Registration> registrations;
+  try {
+    const Json document = Json::parse(ReadTextFile(file));
+    for (const Json& json : document.at("photographs")) {
+      registrations.push_back(RegistrationFromJson(json));
+    }
+  } catch (const Json::exception& error) {
+    throw Error(file, std::string("not a registration file: ") + error.what());
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    if (message.starts_with(file.string())) throw;
+    throw Error(file, message);
+  }
+  return registrations;
+}
+
+}  // namespace groundglass
