@@ -1,9 +1,97 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "datasets-synthetic/synth.h"
+#include "scene/error.h"
+#include "scene/view_io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
 
 namespace groundglass {
+namespace {
 
-void AddSynthCommand(CLI::App&, int&) {}
+struct SynthArguments {
+  CommonOptions common;
+  std::string preset;
+  std::string out;
+  std::string size;
+  std::string recipe_file;
+  int num_views = -1;
+  bool list = false;
+};
+
+void ParseSize(const std::string& size, SynthRecipe& recipe) {
+  char rest = 0;
+  if (std::sscanf(size.c_str(), "%dx%d%c", &recipe.width_px, &recipe.height_px, &rest) != 2) {
+    throw Error("--size " + size + ": expected WIDTHxHEIGHT, as 1500x1000");
+  }
+}
+
+void PrintPresets() {
+  for (const SynthPreset& preset : ListSynthPresets()) {
+    std::printf("%-10s %s\n", preset.name.c_str(), preset.description.c_str());
+  }
+}
+
+int RunSynth(const SynthArguments& arguments, bool has_seed) {
+  SynthRecipe recipe = PresetRecipe(arguments.preset);
+  if (!arguments.recipe_file.empty()) {
+    ApplyRecipeJson(ReadTextFile(arguments.recipe_file), arguments.recipe_file, recipe);
+  }
+  if (!arguments.size.empty()) ParseSize(arguments.size, recipe);
+  if (arguments.num_views >= 0) recipe.num_views = arguments.num_views;
+  if (has_seed) recipe.seed = arguments.common.seed;
+  recipe.Check();
+  if (arguments.common.dry_run) {
+    std::fputs(FormatRecipe(recipe).c_str(), stdout);
+    return kExitDone;
+  }
+  const SynthSummary summary =
+      WriteSyntheticScene(recipe, arguments.out, MakeProgress(arguments.common, "photographs"));
+  if (arguments.common.json) {
+    const nlohmann::ordered_json json = {{"scene", arguments.out},
+                                         {"faces", summary.num_faces},
+                                         {"photographs", summary.num_photographs},
+                                         {"novel_views", summary.num_novel_views},
+                                         {"mean_tag_error_px", summary.mean_tag_error_px}};
+    std::printf("%s\n", json.dump(2).c_str());
+  } else {
+    std::printf("%s: %d faces, %d photographs, %d novel views; hand tags %.1f px off on average\n",
+                arguments.out.c_str(),
+                summary.num_faces,
+                summary.num_photographs,
+                summary.num_novel_views,
+                summary.mean_tag_error_px);
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+void AddSynthCommand(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<SynthArguments>();
+  CLI::App* command = app.add_subcommand(
+      "synth", "Make a scene with known answers: model, photographs, tags, truth");
+  command->add_option("preset", arguments->preset, "which scene; --list shows them");
+  command->add_option("-o,--out", arguments->out, "the scene folder to make");
+  command->add_option("--size", arguments->size, "of the photographs, as 1500x1000");
+  command->add_option("--views", arguments->num_views, "how many of the planned views; 0 for all");
+  command->add_option("--recipe", arguments->recipe_file, "JSON file that overrides the preset");
+  command->add_flag("--list", arguments->list, "list the presets");
+  AddCommonOptions(command, arguments->common);
+  command->callback([command, arguments, &exit_status] {
+    if (arguments->list) {
+      PrintPresets();
+      return;
+    }
+    if (arguments->preset.empty()) throw CLI::RequiredError("preset");
+    if (arguments->out.empty() && !arguments->common.dry_run) throw CLI::RequiredError("--out");
+    exit_status = RunWithThreads(
+        arguments->common, [&] { return RunSynth(*arguments, command->count("--seed") > 0); });
+  });
+}
 
 }  // namespace groundglass

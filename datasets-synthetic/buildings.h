@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "datasets-synthetic/synthetic_world.h"
+
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// Where a photographer stands and looks: the notebook's numbers, in `site`, in the model's unit.
+struct PlannedView {
+  std::string name;
+  Eigen::Vector3d position_in_site = Eigen::Vector3d::Zero();
+  Eigen::Vector3d lookat_in_site = Eigen::Vector3d::Zero();
+  double view_angle_deg = 58;
+  std::string comment;
+};
+
+// A building with its surroundings, and the views that show it.
+struct Subject {
+  SyntheticWorld world;
+  std::vector<PlannedView> views;
+  std::vector<PlannedView> novel_views;
+};
+
+// A white tiled modernist block after the Wiesner Building as the thesis describes it: setbacks, an
+// arcade, an entrance recess, window bands, rounded corners of three flat faces a quarter; 23 views
+// with the thesis' s5 among them. Feet; about 100 faces.
+Subject MakeWiesner(uint64_t seed);
+
+// The ground, roads and distant blocks around a building that stands within `radius` feet of
+// `center_in_world`; called after the building's own faces.
+void AddSurroundings(WorldBuilder& builder,
+                     const Eigen::Vector2d& center_in_world,
+                     double radius,
+                     uint64_t seed);
+
+}  // namespace groundglass

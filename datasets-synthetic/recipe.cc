@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "datasets-synthetic/recipe.h"
+
+#include "scene/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+
+namespace groundglass {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Calls `visit` with the path and the value of each field, so that reading, writing and checking
+// agree on what there is.
+template <typename Recipe, typename Visit>
+void VisitFields(Recipe& recipe, const Visit& visit) {
+  visit("building", recipe.building);
+  visit("width", recipe.width_px);
+  visit("height", recipe.height_px);
+  visit("views", recipe.num_views);
+  visit("seed", recipe.seed);
+  visit("notebook/sigma_position", recipe.notebook.sigma_position);
+  visit("notebook/sigma_height", recipe.notebook.sigma_height);
+  visit("notebook/sigma_lookat", recipe.notebook.sigma_lookat);
+  visit("notebook/sigma_roll_deg", recipe.notebook.sigma_roll_deg);
+  visit("notebook/tape", recipe.notebook.tape);
+  visit("slide/sigma_shift", recipe.slide.sigma_shift);
+  visit("slide/sigma_turn_deg", recipe.slide.sigma_turn_deg);
+  visit("slide/sigma_scale", recipe.slide.sigma_scale);
+  visit("slide/sigma_anisotropy", recipe.slide.sigma_anisotropy);
+  visit("lens/k1", recipe.lens.k1);
+  visit("photo/sunny_share", recipe.photo.sunny_share);
+  visit("photo/sigma_exposure_stops", recipe.photo.sigma_exposure_stops);
+  visit("photo/sigma_white_balance", recipe.photo.sigma_white_balance);
+  visit("photo/max_vignetting", recipe.photo.max_vignetting);
+  visit("photo/grain", recipe.photo.grain);
+  visit("photo/blur_px", recipe.photo.blur_px);
+}
+
+Json::json_pointer Pointer(const std::string& path) { return Json::json_pointer("/" + path); }
+
+}  // namespace
+
+void SynthRecipe::Check() const {
+  if (width_px < 16 || height_px < 16 || width_px > 20000 || height_px > 20000) {
+    throw Error("a synthetic picture must be 16 to 20000 px each way, not " +
+                std::to_string(width_px) + "x" + std::to_string(height_px));
+  }
+  VisitFields(*this, [](const std::string& path, const auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
+      if (path != "lens/k1" && !(value >= 0)) {
+        throw Error("recipe field " + path + " must not be negative");
+      }
+    }
+  });
+  if (num_views < 0) throw Error("recipe field views must not be negative");
+  if (photo.sunny_share > 1) throw Error("recipe field photo/sunny_share must be at most 1");
+  if (photo.max_vignetting > 1) throw Error("recipe field photo/max_vignetting must be at most 1");
+}
+
+std::vector<SynthPreset> ListSynthPresets() {
+  return {
+      {"wiesner", "white tiled modernist block, 88 faces, feet, 23 slides as the thesis took them"},
+      {"pure", "the same without any nuisance: exact tags, overcast, no grain, no slide errors"},
+  };
+}
+
+SynthRecipe PresetRecipe(const std::string& preset) {
+  SynthRecipe recipe;
+  recipe.preset = preset;
+  if (preset == "wiesner") return recipe;
+  if (preset == "pure") {
+    recipe.slide = {0, 0, 0, 0};
+    recipe.notebook.sigma_roll_deg = 0;
+    recipe.photo = {0, 0, 0, 0, 0, 0};
+    return recipe;
+  }
+  std::string names;
+  for (const SynthPreset& known : ListSynthPresets()) {
+    names += (names.empty() ? "" : ", ") + known.name;
+  }
+  throw Error("no synthetic scene is called " + preset + "; there are " + names);
+}
+
+void ApplyRecipeJson(const std::string& text, const std::string& name, SynthRecipe& recipe) {
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw Error(name, std::string("not JSON: ") + error.what());
+  }
+  if (!json.is_object()) throw Error(name, "a recipe is a JSON object");
+  Json flat = json.flatten();
+  VisitFields(recipe, [&](const std::string& path, auto& value) {
+    if (!json.contains(Pointer(path))) return;
+    try {
+      json.at(Pointer(path)).get_to(value);
+    } catch (const Json::exception&) {
+      throw Error(name, "recipe field " + path + " is not of the kind expected");
+    }
+    flat.erase("/" + path);
+  });
+  flat.erase("/preset");
+  if (!flat.empty()) throw Error(name, "unknown recipe field " + flat.begin().key().substr(1));
+}
+
+std::string FormatRecipe(const SynthRecipe& recipe) {
+  Json json;
+  json["preset"] = recipe.preset;
+  VisitFields(recipe,
+              [&](const std::string& path, const auto& value) { json[Pointer(path)] = value; });
+  return json.dump(1) + "\n";
+}
+
+}  // namespace groundglass

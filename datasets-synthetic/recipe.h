@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// Everything that a synthetic scene is made from. The same recipe and build give the same bytes.
+struct SynthRecipe {
+  std::string preset = "wiesner";
+  std::string building = "wiesner";
+  int width_px = 1500;
+  int height_px = 1000;
+  // How many of the building's planned views are taken; 0 for all.
+  int num_views = 0;
+  uint64_t seed = 1988;
+
+  // The notebook: one standard deviation of what was measured, and what a tape resolves, in the
+  // model's unit. Roll is never written down; the true one has sigma_roll_deg.
+  struct Notebook {
+    double sigma_position = 0.15;
+    double sigma_height = 0.05;
+    double sigma_lookat = 0.3;
+    double sigma_roll_deg = 0.3;
+    double tape = 0.1;
+  } notebook;
+
+  // Mount and scanner, one standard deviation each.
+  struct Slide {
+    double sigma_shift = 0.01;  // of the width, each way
+    double sigma_turn_deg = 0.7;
+    double sigma_scale = 0.01;
+    double sigma_anisotropy = 0.003;
+  } slide;
+
+  // The lens, the same for all photographs.
+  struct Lens {
+    double k1 = 0;
+  } lens;
+
+  struct Photo {
+    double sunny_share = 0.5;
+    double sigma_exposure_stops = 0.25;
+    double sigma_white_balance = 0.03;
+    double max_vignetting = 0.8;
+    double grain = 0.012;
+    double blur_px = 0.6;
+  } photo;
+
+  void Check() const;  // throws Error naming the first field out of range
+};
+
+struct SynthPreset {
+  std::string name;
+  std::string description;
+};
+std::vector<SynthPreset> ListSynthPresets();
+
+// Throws Error naming the presets there are, if there is no such preset.
+SynthRecipe PresetRecipe(const std::string& preset);
+
+// Overrides fields by a JSON object laid out as FormatRecipe writes it; fields that are not there
+// stay. `name` stands for the file in messages. Throws Error naming an unknown or wrong field.
+void ApplyRecipeJson(const std::string& json, const std::string& name, SynthRecipe& recipe);
+std::string FormatRecipe(const SynthRecipe& recipe);
+
+}  // namespace groundglass
