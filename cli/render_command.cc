@@ -1,9 +1,252 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "scene/error.h"
+#include "scene/image_io.h"
+#include "scene/scene_folder.h"
+#include "scene/textured_model_io.h"
+#include "scene/view_io.h"
+#include "viewer/camera_path.h"
+#include "viewer/film.h"
+#include "viewer/overlay.h"
+#include "viewer/renderer.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace groundglass {
+namespace {
 
-void AddRenderCommand(CLI::App&, int&) {}
+namespace fs = std::filesystem;
+
+const std::map<std::string, DrawMode> kModes = {{"textured", DrawMode::kTextured},
+                                                {"shaded", DrawMode::kShaded},
+                                                {"wire", DrawMode::kWireframe},
+                                                {"labels", DrawMode::kLabels}};
+const std::map<std::string, Background> kBackgrounds = {{"white", Background::kWhite},
+                                                        {"sky", Background::kSky},
+                                                        {"transparent", Background::kTransparent}};
+
+struct RenderArguments {
+  CommonOptions common;
+  fs::path model;
+  fs::path view_file;
+  std::string path;  // "orbit", or a folder of .view files
+  fs::path photograph;
+  fs::path out;
+  int width_px = 0;
+  int height_px = 0;
+  double seconds = 10;
+  RenderOptions render;
+  FilmOptions film;
+  OrbitOptions orbit;
+};
+
+TexturedModel ReadModelToRender(const RenderArguments& arguments) {
+  fs::path file = arguments.model;
+  if (fs::is_directory(file)) {
+    if (!fs::exists(file / "model.glb")) {
+      throw Error(file, "has no model.glb; expected an output folder or a model file");
+    }
+    file /= "model.glb";
+  }
+  TexturedModel textured = ReadTexturedModel(file);
+  if (arguments.common.unit && *arguments.common.unit != textured.model.unit) {
+    // glTF is in metres, whatever the unit that the views are in; other files' numbers are taken
+    // to be in the unit given.
+    const bool is_gltf = file.extension() == ".glb" || file.extension() == ".gltf";
+    if (is_gltf) {
+      const double scale =
+          MetresPerUnit(textured.model.unit) / MetresPerUnit(*arguments.common.unit);
+      for (Eigen::Vector3d& point : textured.model.points_in_world) point *= scale;
+    }
+    textured.model.unit = *arguments.common.unit;
+  }
+  return textured;
+}
+
+// The picture's size: as asked for; what is left open follows from the view's aspect.
+ImageSize ChooseSize(const RenderArguments& arguments, double aspect) {
+  ImageSize size = {arguments.width_px, arguments.height_px};
+  if (size.width == 0 && size.height == 0) size.width = 1500;
+  if (size.height == 0) size.height = static_cast<int>(std::lround(size.width / aspect));
+  if (size.width == 0) size.width = static_cast<int>(std::lround(size.height * aspect));
+  return size;
+}
+
+void Report(const RenderArguments& arguments,
+            const ImageSize& size,
+            int num_frames,
+            const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
+  }
+  if (arguments.common.json) {
+    const nlohmann::ordered_json json = {{"file", arguments.out.string()},
+                                         {"written", !arguments.common.dry_run},
+                                         {"width_px", size.width},
+                                         {"height_px", size.height},
+                                         {"frames", num_frames},
+                                         {"warnings", warnings}};
+    std::printf("%s\n", json.dump(2).c_str());
+  } else {
+    std::printf("%s%s: %d x %d, %d %s\n",
+                arguments.common.dry_run ? "would write " : "",
+                arguments.out.c_str(),
+                size.width,
+                size.height,
+                num_frames,
+                num_frames == 1 ? "picture" : "frames");
+  }
+}
+
+int RenderOverlay(const RenderArguments& arguments) {
+  const PolygonModel model = ReadModelToRender(arguments).model;
+  const Image8 photograph = ReadSrgb8(arguments.photograph);
+  const Camera camera =
+      CameraFromTag(ReadView(arguments.view_file), photograph.width, photograph.height);
+  if (!arguments.common.dry_run) {
+    WriteSrgb8(
+        arguments.out,
+        DrawOverlay(photograph, model, FindModelEdges(model), Visibility(model), camera, nullptr));
+  }
+  Report(arguments, {photograph.width, photograph.height}, 1, {});
+  return kExitDone;
+}
+
+int RenderStill(const RenderArguments& arguments) {
+  const ViewTag tag = ReadView(arguments.view_file);
+  const ImageSize size = ChooseSize(arguments, tag.aspect);
+  Renderer renderer(ReadModelToRender(arguments));
+  if (!arguments.common.dry_run) {
+    WriteSrgb8(arguments.out,
+               renderer.Render(CameraFromTag(tag, size.width, size.height), arguments.render));
+  }
+  Report(arguments, size, 1, renderer.Warnings());
+  return kExitDone;
+}
+
+// The folder's views in natural order, as cameras of the film's frame.
+std::vector<Camera> ReadFilmCameras(const fs::path& folder, const ImageSize& size) {
+  if (!fs::is_directory(folder)) {
+    throw Error(folder, "is no folder of .view files; expected one, or the word orbit");
+  }
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".view") files.push_back(entry.path());
+  }
+  if (files.empty()) throw Error(folder, "holds no .view file");
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return NaturalLess(a.stem().string(), b.stem().string());
+  });
+  std::vector<Camera> cameras;
+  for (const fs::path& file : files) {
+    const ViewTag tag = ReadView(file);
+    const int tag_height_px = static_cast<int>(std::lround(size.width / tag.aspect));
+    cameras.push_back(
+        ReframedCamera(CameraFromTag(tag, size.width, tag_height_px), size.width, size.height));
+  }
+  return cameras;
+}
+
+int RenderFilm(const RenderArguments& arguments) {
+  // H.264's colour planes are half as large each way: even sizes only.
+  ImageSize size = ChooseSize(arguments, 16.0 / 9);
+  size.width += size.width % 2;
+  size.height += size.height % 2;
+  const int num_frames = std::max(
+      1, static_cast<int>(std::lround(arguments.seconds * arguments.film.frames_per_second)));
+  const TexturedModel model = ReadModelToRender(arguments);
+  std::vector<Camera> path;
+  if (arguments.path == "orbit") {
+    OrbitOptions orbit = arguments.orbit;
+    orbit.width_px = size.width;
+    orbit.height_px = size.height;
+    path = MakeOrbit(model.model, num_frames, orbit);
+  } else {
+    path = MakeFlight(ReadFilmCameras(arguments.path, size), num_frames);
+  }
+  Renderer renderer(model);
+  if (!arguments.common.dry_run) {
+    WriteFilm(
+        arguments.out,
+        num_frames,
+        [&](int frame) { return renderer.Render(path[frame], arguments.render); },
+        arguments.film,
+        MakeProgress(arguments.common, "film"));
+  }
+  Report(arguments, size, num_frames, renderer.Warnings());
+  return kExitDone;
+}
+
+int RunRender(const RenderArguments& arguments) {
+  if (!arguments.path.empty()) {
+    if (arguments.out.extension() != ".mp4") throw Error(arguments.out, "a film ends in .mp4");
+    if (arguments.render.background == Background::kTransparent) {
+      throw Error(arguments.out, "a film cannot be transparent");
+    }
+    return RenderFilm(arguments);
+  }
+  if (arguments.out.extension() == ".jpg" &&
+      arguments.render.background == Background::kTransparent) {
+    throw Error(arguments.out, "JPEG cannot be transparent; write a .png");
+  }
+  return arguments.photograph.empty() ? RenderStill(arguments) : RenderOverlay(arguments);
+}
+
+}  // namespace
+
+void AddRenderCommand(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<RenderArguments>();
+  arguments->render.supersampling = 2;
+  CLI::App* command =
+      app.add_subcommand("render", "Draw a model: stills from views, overlays, films");
+  command
+      ->add_option("model", arguments->model, "an output folder, or a .glb, .obj, .osu, ... model")
+      ->required();
+  command->add_option("-o,--out", arguments->out, "the picture (.png, .jpg, .tif) or film (.mp4)")
+      ->required();
+  CLI::Option* view = command->add_option("--view", arguments->view_file, "the view to draw");
+  CLI::Option* path = command->add_option(
+      "--path", arguments->path, "a film: 'orbit', or a folder of .view files to fly through");
+  command->add_option("--photo", arguments->photograph, "draw the model's edges over this one")
+      ->needs(view);
+  view->excludes(path);
+  command->add_option("--mode", arguments->render.mode, "textured, shaded, wire or labels")
+      ->transform(CLI::CheckedTransformer(kModes));
+  command->add_option("--background", arguments->render.background, "white, sky or transparent")
+      ->transform(CLI::CheckedTransformer(kBackgrounds));
+  command->add_flag("--edges", arguments->render.edges, "the model's edges over the picture");
+  command
+      ->add_option("--width", arguments->width_px, "px; 1500 if neither width nor height is given")
+      ->check(CLI::Range(1, 16384));
+  command
+      ->add_option("--height", arguments->height_px, "px; else from the view's aspect (film: 16:9)")
+      ->check(CLI::Range(1, 16384));
+  command->add_option("--supersampling", arguments->render.supersampling, "1 (fast) to 4 (fine)")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  command->add_option("--seconds", arguments->seconds, "length of the film")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--fps", arguments->film.frames_per_second, "frames a second")
+      ->check(CLI::Range(1.0, 240.0))
+      ->capture_default_str();
+  command->add_option("--orbit-height", arguments->orbit.height_deg, "degrees above the model")
+      ->capture_default_str();
+  AddCommonOptions(command, arguments->common);
+  command->callback([arguments, view, path, &exit_status] {
+    if (view->count() + path->count() == 0) throw CLI::RequiredError("--view or --path");
+    exit_status = RunWithThreads(arguments->common, [&] { return RunRender(*arguments); });
+  });
+}
 
 }  // namespace groundglass
