@@ -1,9 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/register_arguments.h"
+#include "scene/registration_io.h"
+
+#include <cstdio>
+#include <memory>
 
 namespace groundglass {
 
-void AddRegisterCommand(CLI::App&, int&) {}
+void AddRegisterCommand(CLI::App& app, int& exit_status) {
+  struct Arguments {
+    CommonOptions common;
+    RegisterArguments registering;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("register", "Correct the photographs' tags against the model's edges");
+  AddRegisterArguments(command, arguments->registering);
+  AddCommonOptions(command, arguments->common);
+  command->callback([arguments, &exit_status] {
+    exit_status = RunWithThreads(arguments->common, [&] {
+      const RegisterArguments& registering = arguments->registering;
+      registering.options.Check();
+      const Scene scene = ReadSceneForCommand(registering, arguments->common);
+      if (arguments->common.dry_run) {
+        std::printf("would register %zu photographs into %s\n",
+                    scene.photographs.size(),
+                    registering.out_folder.string().c_str());
+        return kExitDone;
+      }
+      PrepareOutputFolder(registering.out_folder);
+      WriteManifest(registering.out_folder,
+                    DescribeInputs("register", scene, registering, arguments->common));
+      const std::vector<Registration> registrations =
+          RegisterAndWrite(scene, registering, arguments->common);
+      if (arguments->common.json) {
+        std::printf("%s", FormatRegistrations(registrations).c_str());
+      } else {
+        PrintRegistrations(registrations);
+      }
+      return ExitStatusOf(registrations);
+    });
+  });
+}
 
 }  // namespace groundglass

@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #include "register/camera_prior.h"
 
+#include "scene/error.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "scene/error.h"
 
 namespace groundglass {
 
@@ -70,7 +70,8 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
   covariance.topLeftCorner<5, 5>() = scaled * scaled.transpose();
 
   double roll = tag.sigmas.roll_deg.value_or(options.roll_deg);
-  double view_angle = tag.sigmas.view_angle_deg.value_or(options.view_angle_share * tag.view_angle_deg);
+  double view_angle =
+      tag.sigmas.view_angle_deg.value_or(options.view_angle_share * tag.view_angle_deg);
   double aspect = tag.sigmas.aspect.value_or(options.aspect_share * tag.aspect);
   double shift_x = tag.sigmas.shift.value_or(options.shift);
   double shift_y = shift_x;
@@ -97,8 +98,8 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
 
   for (const std::string& name : options.lock) {
     for (int i = 0; i < kNumCameraParameters; ++i) {
-      const bool named = kCameraParameterNames[i] == name ||
-                         (name == "shift" && (i == 8 || i == 9));
+      const bool named =
+          kCameraParameterNames[i] == name || (name == "shift" && (i == 8 || i == 9));
       if (!named) continue;
       covariance.row(i).setZero();
       covariance.col(i).setZero();

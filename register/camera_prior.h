@@ -2,35 +2,35 @@
 // Part of Groundglass.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "scene/lens.h"
 #include "scene/polygon_model.h"
 #include "scene/registration.h"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace groundglass {
 
 // One standard deviation of what a tape and a tripod measure, where the tag itself does not say.
 struct PriorOptions {
   // Camera position: the larger of a length and a share of the distance to the look-at point.
-  double position_m = 0.076;         // a quarter of a foot, across (x and y each)
+  double position_m = 0.076;  // a quarter of a foot, across (x and y each)
   double position_share = 0.005;
-  double height_m = 0.030;           // a tenth of a foot
+  double height_m = 0.030;  // a tenth of a foot
   double height_share = 0.002;
-  double lookat_m = 0.122;           // 0.4 ft, each of i, j, k
+  double lookat_m = 0.122;  // 0.4 ft, each of i, j, k
   double lookat_share = 0.01;
   double roll_deg = 1.5;
   double view_angle_share = 0.01;
   double aspect_share = 0.005;
-  double shift = 0.015;              // fraction of the frame's width, each way
+  double shift = 0.015;  // fraction of the frame's width, each way
   double k1 = 0.05;
 
   // What a slide's mount and its scan add to a calibrated lens. No slides: set digital.
   double slide_scale_share = 0.01;
   double slide_aspect_share = 0.003;
-  bool digital = false;              // no mount and no scan: the lens file holds as it is
+  bool digital = false;  // no mount and no scan: the lens file holds as it is
 
   // Parameters held at the tag's values: names of kCameraParameterNames, or "shift" for both.
   std::vector<std::string> lock;

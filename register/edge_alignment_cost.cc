@@ -2,9 +2,9 @@
 // Part of Groundglass.
 #include "register/edge_alignment_cost.h"
 
-#include <cmath>
-
 #include "register/parameter_projection.h"
+
+#include <cmath>
 
 namespace groundglass {
 
@@ -21,17 +21,15 @@ EdgeAlignmentCost::EdgeAlignmentCost(const std::vector<AlignedSample>& samples,
 bool EdgeAlignmentCost::Evaluate(double const* const* parameters,
                                  double* residuals,
                                  double** jacobians) const {
-  using Jacobian =
-      Eigen::Matrix<double, Eigen::Dynamic, kNumCameraParameters, Eigen::RowMajor>;
+  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, kNumCameraParameters, Eigen::RowMajor>;
   const Eigen::Map<const CameraParameters> whitened(parameters[0]);
   const ParameterProjection projection(
       prior_.mean + prior_.root * whitened, k2_, width_px_, height_px_);
   const auto count = static_cast<Eigen::Index>(samples_.size());
   Eigen::Map<Eigen::VectorXd> r(residuals, count);
   const bool with_jacobian = jacobians && jacobians[0];
-  Eigen::Map<Jacobian> by_whitened(with_jacobian ? jacobians[0] : nullptr,
-                                   with_jacobian ? count : 0,
-                                   kNumCameraParameters);
+  Eigen::Map<Jacobian> by_whitened(
+      with_jacobian ? jacobians[0] : nullptr, with_jacobian ? count : 0, kNumCameraParameters);
   for (Eigen::Index i = 0; i < count; ++i) {
     const AlignedSample& sample = samples_[i];
     const auto projected = projection.Project(sample.point_in_world);

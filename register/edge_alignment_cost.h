@@ -2,12 +2,12 @@
 // Part of Groundglass.
 #pragma once
 
+#include "register/camera_prior.h"
+#include "register/edge_samples.h"
+
 #include <ceres/cost_function.h>
 
 #include <vector>
-
-#include "register/camera_prior.h"
-#include "register/edge_samples.h"
 
 namespace groundglass {
 
@@ -17,8 +17,8 @@ struct AlignedSample {
   int edge = -1;
   Eigen::Vector2d origin_px = Eigen::Vector2d::Zero();  // where offset 0 lies
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
-  double offset_px = 0;   // where the photograph's edge lies, from origin along normal
-  double precision = 0;   // 1 / variance of offset_px, 1 / px^2; 0 for an outlier
+  double offset_px = 0;  // where the photograph's edge lies, from origin along normal
+  double precision = 0;  // 1 / variance of offset_px, 1 / px^2; 0 for an outlier
   // The model edge's own error here: one sigma of its shift as a whole, and of its turn (signed).
   Eigen::Vector2d bias_px = Eigen::Vector2d::Zero();
 };
@@ -26,12 +26,11 @@ struct AlignedSample {
 // Distances between projected model edges and the photograph's edges, for all samples of one
 // photograph:
 //   r_i = sqrt(precision_i) (normal_i . (project(point_i; mean + root u) - origin_i) - offset_i)
-// Each model edge has an error of its own (windows are recessed, eaves overhang, plans are rounded):
-// a shift and a turn, with prior sigmas bias_i, integrated out. Samples of one edge have covariance
-// I + A A^T with rows A_i = sqrt(precision_i) bias_i^T, and the residuals are whitened by its inverse
-// square root.
-// Samples must come sorted by edge. Block: u, 11 whitened parameters. Residuals: one per sample,
-// without unit.
+// Each model edge has an error of its own (windows are recessed, eaves overhang, plans are
+// rounded): a shift and a turn, with prior sigmas bias_i, integrated out. Samples of one edge have
+// covariance I + A A^T with rows A_i = sqrt(precision_i) bias_i^T, and the residuals are whitened
+// by its inverse square root. Samples must come sorted by edge. Block: u, 11 whitened parameters.
+// Residuals: one per sample, without unit.
 class EdgeAlignmentCost : public ceres::CostFunction {
  public:
   EdgeAlignmentCost(const std::vector<AlignedSample>& samples,

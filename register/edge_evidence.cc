@@ -2,9 +2,10 @@
 // Part of Groundglass.
 #include "register/edge_evidence.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 namespace groundglass {
 namespace {
@@ -94,10 +95,10 @@ std::vector<EdgeCandidate> EdgeEvidence::FindCandidates(const Eigen::Vector2d& i
     const auto fy = static_cast<float>(y - y0);
     const float* g00 = gradient.At(x0, y0);
     const float* g01 = gradient.At(x0, y0 + 1);
-    const float gx = (1 - fy) * ((1 - fx) * g00[0] + fx * g00[2]) +
-                     fy * ((1 - fx) * g01[0] + fx * g01[2]);
-    const float gy = (1 - fy) * ((1 - fx) * g00[1] + fx * g00[3]) +
-                     fy * ((1 - fx) * g01[1] + fx * g01[3]);
+    const float gx =
+        (1 - fy) * ((1 - fx) * g00[0] + fx * g00[2]) + fy * ((1 - fx) * g01[0] + fx * g01[2]);
+    const float gy =
+        (1 - fy) * ((1 - fx) * g00[1] + fx * g00[3]) + fy * ((1 - fx) * g01[1] + fx * g01[3]);
     along[k + reach] = gx * static_cast<float>(normal.x()) + gy * static_cast<float>(normal.y());
     magnitude[k + reach] = std::hypot(gx, gy);
   }

@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
-#include <vector>
+#include "scene/image.h"
 
 #include <Eigen/Dense>
 
-#include "scene/image.h"
+#include <vector>
 
 namespace groundglass {
 
@@ -35,8 +35,8 @@ class EdgeEvidence {
   // The gradient at one scale: level 0 is the photograph's own resolution, each further level has
   // half of it. Values are in units of that level's noise.
   struct Level {
-    double scale = 1;        // photograph's pixels per level's pixel
-    ImageF gradient;         // 2 channels: x, y
+    double scale = 1;  // photograph's pixels per level's pixel
+    ImageF gradient;   // 2 channels: x, y
   };
   const Level& AtScale(double px_per_cell) const;
 

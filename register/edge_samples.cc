@@ -32,8 +32,8 @@ std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
     const double edge_length = (edge.end_in_world - edge.start_in_world).norm();
     for (int i = 0; i < count; ++i) {
       const double s = (i + 0.5) / count;
-      const double t = s * start_in_cam.z() /
-                       (end_in_cam.z() + s * (start_in_cam.z() - end_in_cam.z()));
+      const double t =
+          s * start_in_cam.z() / (end_in_cam.z() + s * (start_in_cam.z() - end_in_cam.z()));
       const Eigen::Vector3d point =
           span.start_in_world + t * (span.end_in_world - span.start_in_world);
       const double along = 2 * (point - edge.start_in_world).norm() / edge_length - 1;
@@ -51,8 +51,8 @@ std::vector<ProjectedSample> ProjectSamples(const std::vector<EdgeSample>& sampl
     const auto here = projection.Project(sample.point_in_world);
     if (!here) continue;
     // A step along the edge of about a pixel gives its direction in the image.
-    const auto there = projection.Project(sample.point_in_world +
-                                          sample.direction_in_world / here->px_per_unit);
+    const auto there =
+        projection.Project(sample.point_in_world + sample.direction_in_world / here->px_per_unit);
     if (!there) continue;
     const Eigen::Vector2d along = there->image_px - here->image_px;
     const double length = along.norm();

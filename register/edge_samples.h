@@ -2,14 +2,14 @@
 // Part of Groundglass.
 #pragma once
 
-#include <vector>
-
-#include <Eigen/Dense>
-
 #include "register/parameter_projection.h"
 #include "scene/feature_edges.h"
 #include "scene/polygon_model.h"
 #include "scene/visibility.h"
+
+#include <Eigen/Dense>
+
+#include <vector>
 
 namespace groundglass {
 
@@ -26,7 +26,7 @@ struct EdgeModel {
 struct EdgeSample {
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_in_world = Eigen::Vector3d::UnitX();  // along the edge, unit length
-  int edge = -1;          // in EdgeModel::edges
+  int edge = -1;                                                  // in EdgeModel::edges
   double along = 0;       // where on the edge: -1 at its start, 1 at its end
   double spacing_px = 0;  // the length of edge it stands for
 };

@@ -2,10 +2,11 @@
 // Part of Groundglass.
 #include "register/hypotheses.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
 
 namespace groundglass {
 namespace {
@@ -253,8 +254,7 @@ std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
   for (const ScoredPoint& point : points) {
     hypotheses.push_back({linear.directions * point.coefficients, point.score});
   }
-  hypotheses.push_back(
-      {CameraParameters::Zero(), ScoreAt(linear, fine, CameraParameters::Zero())});
+  hypotheses.push_back({CameraParameters::Zero(), ScoreAt(linear, fine, CameraParameters::Zero())});
   return hypotheses;
 }
 

@@ -2,9 +2,9 @@
 // Part of Groundglass.
 #include "register/parameter_projection.h"
 
-#include <cmath>
-
 #include "scene/frames.h"
+
+#include <cmath>
 
 namespace groundglass {
 
@@ -23,14 +23,11 @@ ParameterProjection::ParameterProjection(const CameraParameters& parameters,
 
   // Rows of the level camera (right, down, forward) in `world`, and their derivatives.
   Eigen::Matrix3d level, level_by_yaw, level_by_pitch;
-  level << -cos_yaw, -sin_yaw, 0,
-      sin_pitch * sin_yaw, -sin_pitch * cos_yaw, -cos_pitch,
+  level << -cos_yaw, -sin_yaw, 0, sin_pitch * sin_yaw, -sin_pitch * cos_yaw, -cos_pitch,
       sin_yaw * cos_pitch, -cos_yaw * cos_pitch, sin_pitch;
-  level_by_yaw << sin_yaw, -cos_yaw, 0,
-      sin_pitch * cos_yaw, sin_pitch * sin_yaw, 0,
+  level_by_yaw << sin_yaw, -cos_yaw, 0, sin_pitch * cos_yaw, sin_pitch * sin_yaw, 0,
       cos_yaw * cos_pitch, sin_yaw * cos_pitch, 0;
-  level_by_pitch << 0, 0, 0,
-      cos_pitch * sin_yaw, -cos_pitch * cos_yaw, sin_pitch,
+  level_by_pitch << 0, 0, 0, cos_pitch * sin_yaw, -cos_pitch * cos_yaw, sin_pitch,
       -sin_yaw * sin_pitch, cos_yaw * sin_pitch, cos_pitch;
   Eigen::Matrix3d turn, turn_by_roll;
   turn << cos_roll, sin_roll, 0, -sin_roll, cos_roll, 0, 0, 0, 1;

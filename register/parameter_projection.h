@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
-#include <optional>
+#include "scene/registration.h"
 
 #include <Eigen/Dense>
 
-#include "scene/registration.h"
+#include <optional>
 
 namespace groundglass {
 

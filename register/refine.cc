@@ -2,14 +2,14 @@
 // Part of Groundglass.
 #include "register/refine.h"
 
+#include "register/edge_alignment_cost.h"
+
 #include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "register/edge_alignment_cost.h"
 
 namespace groundglass {
 namespace {
@@ -40,8 +40,7 @@ std::vector<AlignedSample> MatchSamples(const std::vector<EdgeSample>& samples,
   for (size_t i = 0; i < samples.size(); ++i) {
     if (!projected[i].is_valid) continue;
     const double prior_px = (projected[i].jacobian * prior.root).norm();
-    const double range_px =
-        std::max(options.final_range_px, 3 * annealing.range_sigmas * prior_px);
+    const double range_px = std::max(options.final_range_px, 3 * annealing.range_sigmas * prior_px);
     const double width_px = std::max(annealing.noise_px, range_px / 3);
     const std::vector<EdgeCandidate> candidates = evidence.FindCandidates(projected[i].image_px,
                                                                           projected[i].normal,
@@ -93,9 +92,9 @@ double EstimateNoise(const std::vector<AlignedSample>& aligned,
   for (const AlignedSample& sample : aligned) {
     const auto projected = projection.Project(sample.point_in_world);
     if (!projected) continue;
-    residuals.emplace_back(std::abs(sample.normal.dot(projected->image_px - sample.origin_px) -
-                                    sample.offset_px),
-                           sample.precision);
+    residuals.emplace_back(
+        std::abs(sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px),
+        sample.precision);
     total += sample.precision;
   }
   if (residuals.empty()) return 1;
@@ -120,9 +119,9 @@ void Solve(const std::vector<AlignedSample>& aligned,
   ceres::Problem::Options problem_options;
   problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   EdgeAlignmentCost alignment(aligned, prior, measured.k2, width_px, height_px);
-  ceres::NormalPrior whitened_prior(ceres::Matrix::Identity(kNumCameraParameters,
-                                                            kNumCameraParameters),
-                                    ceres::Vector::Zero(kNumCameraParameters));
+  ceres::NormalPrior whitened_prior(
+      ceres::Matrix::Identity(kNumCameraParameters, kNumCameraParameters),
+      ceres::Vector::Zero(kNumCameraParameters));
   ceres::Problem problem(problem_options);
   problem.AddResidualBlock(&alignment, nullptr, whitened.data());
   problem.AddResidualBlock(&whitened_prior, nullptr, whitened.data());
@@ -189,13 +188,8 @@ Refinement RefineFrom(const CameraParameters& start,
   const auto match_and_solve = [&](int max_iterations, CameraCovariance* covariance) {
     const ParameterProjection projection(
         prior.mean + prior.root * refinement.whitened, measured.k2, width_px, height_px);
-    aligned = MatchSamples(refinement.samples,
-                           evidence,
-                           prior,
-                           projection,
-                           units_per_metre,
-                           annealing,
-                           options);
+    aligned = MatchSamples(
+        refinement.samples, evidence, prior, projection, units_per_metre, annealing, options);
     if (aligned.size() < 8) return false;
     Solve(aligned,
           prior,
@@ -229,8 +223,7 @@ Refinement RefineFrom(const CameraParameters& start,
   refinement.num_matched = static_cast<int>(aligned.size());
   // Between the last two steps a settled solution moves by less than its own uncertainty.
   refinement.has_converged =
-      (refinement.whitened - before).squaredNorm() <
-      0.25 * refinement.covariance.trace() + 1e-6;
+      (refinement.whitened - before).squaredNorm() < 0.25 * refinement.covariance.trace() + 1e-6;
   return refinement;
 }
 

@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
-#include <vector>
-
 #include "register/camera_prior.h"
 #include "register/edge_evidence.h"
 #include "register/edge_samples.h"
+
+#include <vector>
 
 namespace groundglass {
 

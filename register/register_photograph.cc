@@ -2,12 +2,13 @@
 // Part of Groundglass.
 #include "register/register_photograph.h"
 
-#include <algorithm>
-#include <cmath>
-#include <opencv2/imgproc.hpp>
-
 #include "register/verdict.h"
 #include "scene/error.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace groundglass {
 namespace {
@@ -15,8 +16,7 @@ namespace {
 Image8 Resized(const Image8& image, int width, int height, int interpolation) {
   if (image.Empty()) return image;
   Image8 resized(width, height, 1);
-  const cv::Mat from(
-      image.height, image.width, CV_8UC1, const_cast<uint8_t*>(image.values.data()));
+  const cv::Mat from(image.height, image.width, CV_8UC1, const_cast<uint8_t*>(image.values.data()));
   cv::Mat to(height, width, CV_8UC1, resized.values.data());
   cv::resize(from, to, to.size(), 0, 0, interpolation);
   return resized;
@@ -101,7 +101,7 @@ Registration RegisterPhotograph(const std::string& name,
                                      options.refine);
     const ParameterProjection projection(
         prior.mean + prior.root * solution.refinement.whitened, measured.k2, width_px, height_px);
-    solution.edge_score =
+    solution.score =
         ScoreAlignment(solution.refinement.samples, projection, evidence, options.score);
     solutions.push_back(std::move(solution));
   }
@@ -128,7 +128,7 @@ Registration RegisterPhotograph(const std::string& name,
   registration.sigmas = registration.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   registration.num_samples = best.refinement.num_matched;
   registration.rms_px = best.refinement.noise_px / scale;
-  registration.score_nats = best.edge_score;
+  registration.score_nats = best.score.nats;
   registration.margin_nats = rival ? best.TotalScore() - rival->TotalScore() : 1e6;
   registration.moved_px =
       MeanDisplacement(best.refinement.samples,

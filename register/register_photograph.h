@@ -2,10 +2,6 @@
 // Part of Groundglass.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "register/camera_prior.h"
 #include "register/edge_samples.h"
 #include "register/hypotheses.h"
@@ -14,6 +10,10 @@
 #include "scene/image.h"
 #include "scene/lens.h"
 #include "scene/registration.h"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace groundglass {
 
@@ -29,8 +29,13 @@ struct RegisterOptions {
   double rival_distance_px = 2.5;
   // The best solution must score this much above its best rival, nats.
   double min_margin_nats = 60;
+  // The best solution must score at least this for each vote that was cast (docs/accuracy.md).
+  double min_nats_per_vote = 0.3;
   // No parameter may end further than this from its prior, in the prior's sigmas.
   double max_prior_sigmas = 3.5;
+  // Nor may all of them together: the squared length of the whitened change (chi-squared with 11
+  // degrees of freedom; 99.9 % lie below).
+  double max_prior_chi_squared = 31.3;
 
   void Check() const;  // throws Error naming the first field out of range
 };

@@ -2,12 +2,12 @@
 // Part of Groundglass.
 #include "register/register_scene.h"
 
+#include "scene/error.h"
+#include "scene/image_io.h"
+
 #include <tbb/parallel_for.h>
 
 #include <mutex>
-
-#include "scene/error.h"
-#include "scene/image_io.h"
 
 namespace groundglass {
 namespace {

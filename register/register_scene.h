@@ -2,14 +2,14 @@
 // Part of Groundglass.
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <vector>
-
 #include "register/register_photograph.h"
 #include "scene/lens.h"
 #include "scene/progress.h"
 #include "scene/scene_folder.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
 
 namespace groundglass {
 

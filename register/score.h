@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
-#include <vector>
-
 #include "register/camera_prior.h"
 #include "register/edge_evidence.h"
 #include "register/edge_samples.h"
+
+#include <vector>
 
 namespace groundglass {
 
@@ -24,9 +24,13 @@ struct ScoreOptions {
 //   log(0.35 + 0.65 p / q),
 // p the density of a right match at the nearest candidate, q the density of candidates thereabouts.
 // Its zero means something: a wrong camera scores below it.
-double ScoreAlignment(const std::vector<EdgeSample>& samples,
-                      const ParameterProjection& projection,
-                      const EdgeEvidence& evidence,
-                      const ScoreOptions& options);
+struct AlignmentScore {
+  double nats = 0;
+  double votes = 0;  // that were cast; the score of a perfect alignment grows with them
+};
+AlignmentScore ScoreAlignment(const std::vector<EdgeSample>& samples,
+                              const ParameterProjection& projection,
+                              const EdgeEvidence& evidence,
+                              const ScoreOptions& options);
 
 }  // namespace groundglass

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/verdict.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -36,11 +37,24 @@ void JudgeRegistration(const Solution& best,
     if (verdict > registration.verdict) registration.verdict = verdict;
     registration.reasons.push_back(reason);
   };
-  if (best.edge_score <= 0) {
+  if (best.score.nats <= 0) {
     lower_to(Verdict::kRejected,
              Format("the model's edges meet the photograph's no better than by chance "
                     "(score %.0f nats)",
-                    best.edge_score));
+                    best.score.nats));
+  }
+  const double nats_per_vote = best.score.nats / std::max(1.0, best.score.votes);
+  if (best.score.nats > 0 && nats_per_vote < options.min_nats_per_vote) {
+    lower_to(
+        Verdict::kReview,
+        Format("few of the model's edges are in the photograph (%.2f nats a vote)", nats_per_vote));
+  }
+  const double chi_squared = best.refinement.whitened.squaredNorm();
+  if (chi_squared > options.max_prior_chi_squared) {
+    lower_to(Verdict::kReview,
+             Format("the change as a whole is larger than the tag's sigmas allow "
+                    "(chi-squared %.0f of 11)",
+                    chi_squared));
   }
   for (int i = 0; i < kNumCameraParameters; ++i) {
     if (!(prior.sigmas[i] > 0)) continue;

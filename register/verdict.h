@@ -12,10 +12,10 @@ namespace groundglass {
 // One refined start with its score.
 struct Solution {
   Refinement refinement;
-  double edge_score = 0;  // nats, ScoreAlignment
+  AlignmentScore score;
 
   // The prior's log density joins the edges' score.
-  double TotalScore() const { return edge_score - 0.5 * refinement.whitened.squaredNorm(); }
+  double TotalScore() const { return score.nats - 0.5 * refinement.whitened.squaredNorm(); }
 };
 
 // Writes verdict, reasons and the undetermined parameters into a registration whose figures are

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "cli/register_arguments.h"
+
+#include "register/registration_output.h"
+#include "scene/image_io.h"
+#include "viewer/overlay.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cstdio>
+#include <mutex>
+#include <sstream>
+
+namespace groundglass {
+namespace {
+
+std::string FormatSigma(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
+
+}  // namespace
+
+void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
+  PriorOptions& prior = arguments.options.prior;
+  command->add_option("scene", arguments.scene_folder, "scene folder: model, views/, images/")
+      ->required();
+  command->add_option("-o,--out", arguments.out_folder, "where to write")->required();
+  command->add_option("--model", arguments.model_file, "the model, in place of the scene's own");
+  command->add_option("--lens", arguments.lens_file, "lens file, as `calibrate board` writes it");
+  command->add_flag(
+      "--digital", prior.digital, "no slide mount and no scan: the lens file holds as it is");
+  command
+      ->add_option("--lock",
+                   prior.lock,
+                   "parameters to hold at the tag's values: x y z yaw pitch roll v a shift k1")
+      ->delimiter(',');
+  const std::string group = "Standard deviations where the tag does not say";
+  command->add_option("--sigma-position", prior.position_m, "across, metres")
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--sigma-height", prior.height_m, "metres")
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--sigma-lookat", prior.lookat_m, "metres")
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--sigma-roll", prior.roll_deg, "degrees")
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--sigma-v", prior.view_angle_share, "view angle, as a share of it")
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--sigma-a", prior.aspect_share, "aspect, as a share of it")
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--sigma-shift", prior.shift, "fraction of the frame's width")
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--sigma-k1", prior.k1, "radial distortion")
+      ->capture_default_str()
+      ->group(group);
+}
+
+Scene ReadSceneForCommand(const RegisterArguments& arguments, const CommonOptions& common) {
+  SceneOptions options;
+  options.model_file = arguments.model_file;
+  options.model.unit = common.unit;
+  Scene scene = ReadScene(arguments.scene_folder, options);
+  for (const std::string& warning : scene.warnings) {
+    std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
+  }
+  return scene;
+}
+
+Manifest DescribeInputs(const std::string& command,
+                        const Scene& scene,
+                        const RegisterArguments& arguments,
+                        const CommonOptions& common) {
+  Manifest manifest;
+  manifest.version = GROUNDGLASS_VERSION;
+  manifest.command = command;
+  manifest.seed = common.seed;
+  const auto add = [&](const std::filesystem::path& file) {
+    const std::filesystem::path relative = file.lexically_relative(scene.folder);
+    const bool is_inside = !relative.empty() && *relative.begin() != "..";
+    manifest.sha256_of_inputs[(is_inside ? relative : file.filename()).generic_string()] =
+        HashFile(file);
+  };
+  add(scene.model_file);
+  if (arguments.lens_file) add(*arguments.lens_file);
+  for (const Photograph& photograph : scene.photographs) {
+    add(photograph.image_file);
+    if (!photograph.view_file.empty()) add(photograph.view_file);
+    if (photograph.mask_file) add(*photograph.mask_file);
+    if (photograph.faces_file) add(*photograph.faces_file);
+  }
+  for (const char* table : {"tags.csv", "pairs.csv"}) {
+    if (std::filesystem::exists(scene.folder / table)) add(scene.folder / table);
+  }
+  const PriorOptions& prior = arguments.options.prior;
+  manifest.options["unit"] = scene.model.unit == LengthUnit::kFoot ? "ft" : "m";
+  manifest.options["sigma-position"] = FormatSigma(prior.position_m);
+  manifest.options["sigma-height"] = FormatSigma(prior.height_m);
+  manifest.options["sigma-lookat"] = FormatSigma(prior.lookat_m);
+  manifest.options["sigma-roll"] = FormatSigma(prior.roll_deg);
+  manifest.options["sigma-v"] = FormatSigma(prior.view_angle_share);
+  manifest.options["sigma-a"] = FormatSigma(prior.aspect_share);
+  manifest.options["sigma-shift"] = FormatSigma(prior.shift);
+  manifest.options["sigma-k1"] = FormatSigma(prior.k1);
+  manifest.options["digital"] = prior.digital ? "yes" : "no";
+  std::string lock;
+  for (const std::string& name : prior.lock) lock += (lock.empty() ? "" : ",") + name;
+  manifest.options["lock"] = lock;
+  return manifest;
+}
+
+std::vector<Registration> RegisterAndWrite(const Scene& scene,
+                                           const RegisterArguments& arguments,
+                                           const CommonOptions& common) {
+  std::optional<Lens> lens;
+  if (arguments.lens_file) lens = ReadLens(*arguments.lens_file);
+  const std::vector<Registration> registrations =
+      RegisterScene(scene, lens, arguments.options, MakeProgress(common, "registering"));
+
+  const Progress progress = MakeProgress(common, "drawing overlays");
+  const std::vector<ModelEdge> edges = FindModelEdges(scene.model);
+  const Visibility visibility(scene.model);
+  const int total = static_cast<int>(registrations.size());
+  std::mutex mutex;
+  int done = 0;
+  tbb::parallel_for(0, total, [&](int i) {
+    const Registration& registration = registrations[i];
+    const Camera measured = registration.MeasuredCamera();
+    const Camera corrected = registration.CorrectedCamera();
+    const bool is_rejected = registration.verdict == Verdict::kRejected;
+    WriteSrgb8(arguments.out_folder / "overlays" / (registration.name + ".jpg"),
+               DrawOverlay(ReadSrgb8(scene.photographs[i].image_file),
+                           scene.model,
+                           edges,
+                           visibility,
+                           measured,
+                           is_rejected ? nullptr : &corrected));
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) progress(done, total, registration.name);
+  });
+  // Last, because its being there says that the stage is complete.
+  WriteRegistrationOutput(scene, registrations, arguments.out_folder);
+  return registrations;
+}
+
+void PrintRegistrations(const std::vector<Registration>& registrations) {
+  std::printf("%-12s %-9s %9s %8s %8s  %s\n",
+              "photograph",
+              "verdict",
+              "moved px",
+              "rms px",
+              "score",
+              "why not accepted");
+  for (const Registration& registration : registrations) {
+    std::string reasons;
+    for (const std::string& reason : registration.reasons) {
+      reasons += (reasons.empty() ? "" : "; ") + reason;
+    }
+    std::printf("%-12s %-9s %9.1f %8.2f %8.0f  %s\n",
+                registration.name.c_str(),
+                std::string(VerdictName(registration.verdict)).c_str(),
+                registration.moved_px,
+                registration.rms_px,
+                registration.score_nats,
+                reasons.c_str());
+  }
+}
+
+int ExitStatusOf(const std::vector<Registration>& registrations) {
+  for (const Registration& registration : registrations) {
+    if (registration.verdict != Verdict::kAccepted) return kExitNeedsReview;
+  }
+  return kExitDone;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "cli/commands.h"
+#include "register/register_scene.h"
+#include "scene/output_folder.h"
+#include "scene/scene_folder.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// What `register` and `run` share: the options, and the step from a scene to corrected tags.
+struct RegisterArguments {
+  std::filesystem::path scene_folder;
+  std::filesystem::path out_folder;
+  std::optional<std::filesystem::path> model_file;
+  std::optional<std::filesystem::path> lens_file;
+  RegisterOptions options;
+};
+void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments);
+
+// Reads the scene, telling its warnings on stderr.
+Scene ReadSceneForCommand(const RegisterArguments& arguments, const CommonOptions& common);
+
+// The inputs' hashes and the options, for manifest.json.
+Manifest DescribeInputs(const std::string& command,
+                        const Scene& scene,
+                        const RegisterArguments& arguments,
+                        const CommonOptions& common);
+
+// Registers every photograph and writes views/, registration.json, cameras/ and overlays/.
+std::vector<Registration> RegisterAndWrite(const Scene& scene,
+                                           const RegisterArguments& arguments,
+                                           const CommonOptions& common);
+
+// The table that a person reads: verdict, how far the picture moved, score, reasons.
+void PrintRegistrations(const std::vector<Registration>& registrations);
+
+// 0 if all were accepted, else 3.
+int ExitStatusOf(const std::vector<Registration>& registrations);
+
+}  // namespace groundglass

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/registration_output.h"
+
+#include "scene/atomic_file.h"
+#include "scene/colmap_io.h"
+#include "scene/registration_io.h"
+#include "scene/view_io.h"
+
+namespace groundglass {
+
+void WriteRegistrationOutput(const Scene& scene,
+                             const std::vector<Registration>& registrations,
+                             const std::filesystem::path& out) {
+  std::vector<NamedCamera> cameras;
+  for (size_t i = 0; i < registrations.size(); ++i) {
+    const Registration& registration = registrations[i];
+    const Photograph& photograph = scene.photographs[i];
+    const std::string measured_text = photograph.view_file.empty()
+                                          ? FormatView(registration.measured)
+                                          : ReadTextFile(photograph.view_file);
+    const TagDeviations deviations = TagDeviationsFromCovariance(
+        ParametersFromTag(registration.corrected), registration.covariance, registration.measured);
+    WriteFileAtomically(
+        out / "views" / (registration.name + ".view"),
+        registration.verdict == Verdict::kRejected
+            ? measured_text
+            : FormatCorrectedView(measured_text, registration.corrected, deviations));
+    cameras.push_back({photograph.image_file.filename().string(), registration.CorrectedCamera()});
+  }
+  WriteColmapModel(out / "cameras", cameras);
+  WriteFileAtomically(out / "registration.json", FormatRegistrations(registrations));
+}
+
+}  // namespace groundglass

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/registration.h"
+#include "scene/scene_folder.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace groundglass {
+
+// Writes what registration found into an output folder: views/NAME.view (the hand-written files
+// with their numbers corrected in place; a rejected photograph's stays as it was measured),
+// registration.json, and cameras/ (COLMAP text model of all photographs, in `world`).
+void WriteRegistrationOutput(const Scene& scene,
+                             const std::vector<Registration>& registrations,
+                             const std::filesystem::path& out);
+
+}  // namespace groundglass
