@@ -8,8 +8,9 @@ set(GROUNDGLASS_WARNINGS -Wall -Wextra -Wshadow -Wnon-virtual-dtor
 
 # groundglass_room(scene SOURCES a.cc b.cc NEEDS Eigen3::Eigen PRIVATE embree)
 # NEEDS: what a user of the room's headers needs; PRIVATE: what only its sources use.
+# INTERNAL (last): headers that are not installed and may show third-party types.
 function(groundglass_room name)
-  cmake_parse_arguments(ROOM "" "FOLDER" "SOURCES;NEEDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;NEEDS;PRIVATE;INTERNAL" ${ARGN})
   string(REPLACE "-" "_" target_suffix ${name})
   set(target groundglass_${target_suffix})
   add_library(${target} STATIC ${ROOM_SOURCES})
@@ -23,6 +24,9 @@ function(groundglass_room name)
   install(TARGETS ${target} EXPORT groundglassTargets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   file(GLOB headers ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  foreach(header IN LISTS ROOM_INTERNAL)
+    list(REMOVE_ITEM headers ${CMAKE_CURRENT_SOURCE_DIR}/${header})
+  endforeach()
   install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/groundglass/${name})
 endfunction()
 

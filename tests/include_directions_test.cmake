@@ -9,6 +9,8 @@ cmake_minimum_required(VERSION 3.25)
 # check_one(FILE INCLUDE EXPECTED): EXPECTED is a regular expression on the complaint, or "fine".
 function(check_one file include expected)
   file(REMOVE_RECURSE ${WORK})
+  file(WRITE ${WORK}/register/CMakeLists.txt
+       "groundglass_room(register SOURCES a.cc\n  INTERNAL secret.h)\n")
   file(WRITE ${WORK}/${file} "#include ${include}\n")
   execute_process(
     COMMAND ${CMAKE_COMMAND} -D TREE=${WORK} -P ${CMAKE_CURRENT_LIST_DIR}/include_directions.cmake
@@ -46,5 +48,10 @@ check_one(calibrate/a.h "<opencv2/core.hpp>" "belongs to")
 check_one(register/a.cc "<apriltag/apriltag.h>" "belongs to")
 check_one(invrender/a.cc "<GL/osmesa.h>" "belongs to")
 check_one(register/a.cc "<CLI/CLI.hpp>" "belongs to")
+check_one(register/a.h "\"register/secret.h\"" "internal and an installed header is not")
+check_one(datasets-synthetic/a.cc "\"register/secret.h\"" "internal to register")
+check_one(register/a.cc "\"register/secret.h\"" fine)
+check_one(register/secret.h "<ceres/ceres.h>" fine)
+check_one(register/secret.h "<GL/gl.h>" "belongs to")
 check_one(register/a.cc "<boost/any.hpp>" "nobody owns <boost/...>")
 file(REMOVE_RECURSE ${WORK})

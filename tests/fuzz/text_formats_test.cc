@@ -108,7 +108,7 @@ TEST(Fuzz, LensFilesAreReadOrRefusedAndSurviveRewriting) {
       std::filesystem::path(testing::TempDir()) / "groundglass_fuzz.lens";
   std::mt19937_64 random(7);
   int num_read = 0;
-  for (int round = 0; round < FuzzRounds() / 3; ++round) {
+  for (int round = 0; round < FuzzRounds() / 10; ++round) {
     const std::string text = Mutate(original, dictionary, random);
     SCOPED_TRACE(text);
     WriteText(file, text);
@@ -119,7 +119,7 @@ TEST(Fuzz, LensFilesAreReadOrRefusedAndSurviveRewriting) {
     ASSERT_EQ(FormatLens(ReadLens(file)), FormatLens(found));
   }
   std::filesystem::remove(file);
-  EXPECT_GT(num_read, FuzzRounds() / 60);
+  EXPECT_GT(num_read, FuzzRounds() / 200);
 }
 
 }  // namespace
