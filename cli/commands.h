@@ -2,15 +2,15 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/polygon_model.h"
+#include "scene/progress.h"
+
+#include <CLI/CLI.hpp>
+
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
-
-#include <CLI/CLI.hpp>
-
-#include "scene/polygon_model.h"
-#include "scene/progress.h"
 
 namespace groundglass {
 

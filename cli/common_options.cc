@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "cli/commands.h"
+
 #include <tbb/global_control.h>
 #include <unistd.h>
 
@@ -7,8 +9,6 @@
 #include <cstdio>
 #include <memory>
 #include <thread>
-
-#include "cli/commands.h"
 
 namespace groundglass {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include <cstdio>
-#include <exception>
-
 #include "cli/commands.h"
 #include "scene/error.h"
+
+#include <cstdio>
+#include <exception>
 
 int main(int argc, char** argv) {
   using namespace groundglass;
