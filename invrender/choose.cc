@@ -2,7 +2,10 @@
 // Part of Groundglass.
 #include "invrender/choose.h"
 
+#include "invrender/palette.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace groundglass {
@@ -11,74 +14,137 @@ namespace {
 // Differences of corrected colour (log units, mean over channels) that are ordinary: film grain,
 // resolution, a pixel of misregistration.
 constexpr float kOrdinaryDifference = 0.18f;
+// Squared differences beyond this many ordinary ones are all alike.
+constexpr float kLargestDissent = 9;
+// How much a colour that the wall does not have elsewhere counts against a view.
+constexpr float kPaletteWeight = 0.7f;
+// Sun and cast shadows: how fast photographs with uneven light lose.
+constexpr double kEvenLightPreference = 2;
 
-// Squared difference to the consensus in units of what is ordinary; -1 where there is no say.
-// With three views or more the consensus is the view that most others agree with.
-std::vector<float> MeasureDissent(const ChartCells& cells, int chart, const ColourModel& colour) {
-  constexpr float kCap = 9;
-  const size_t num_photos = cells.photos.size();
-  std::vector<float> dissent(cells.views.size(), -1);
-  std::vector<size_t> seen;
+// The colours of one cell in the photographs that see it.
+struct CellColours {
+  std::vector<size_t> seen;  // k
   std::vector<Eigen::Array3f> colours;
-  for (int cell = 0; cell < cells.NumCells(); ++cell) {
-    const CellView* views = cells.ViewsOf(cell);
+  std::vector<float> votes;
+
+  void Set(const ChartCells& cells, int cell, int chart, const ColourModel& colour) {
     seen.clear();
     colours.clear();
-    for (size_t k = 0; k < num_photos; ++k) {
+    votes.clear();
+    const CellView* views = cells.ViewsOf(cell);
+    for (size_t k = 0; k < cells.photos.size(); ++k) {
       if (views[k].quality <= 0) continue;
+      const int photo = cells.photos[k];
       seen.push_back(k);
-      colours.push_back(colour.Corrected(cells.photos[k], chart, static_cast<int>(k), views[k]));
-    }
-    if (seen.size() < 3) continue;
-    const auto difference = [&](size_t i, size_t j) {
-      const float squared = (colours[i] - colours[j]).square().mean();
-      return std::min(kCap, squared / (kOrdinaryDifference * kOrdinaryDifference));
-    };
-    size_t middle = 0;
-    double least = 1e300;
-    for (size_t i = 0; i < seen.size(); ++i) {
-      double cost = 0;
-      for (size_t j = 0; j < seen.size(); ++j) {
-        const double unevenness = colour.photos[cells.photos[seen[j]]].unevenness;
-        cost += difference(i, j) / (0.1 + unevenness);
-      }
-      if (cost < least) {
-        least = cost;
-        middle = i;
-      }
-    }
-    for (size_t i = 0; i < seen.size(); ++i) {
-      dissent[cell * num_photos + seen[i]] = difference(i, middle);
+      colours.push_back(colour.Corrected(photo, chart, static_cast<int>(k), views[k]));
+      votes.push_back(static_cast<float>(1 / (0.1 + colour.photos[photo].unevenness)));
     }
   }
-  return dissent;
+  float Difference(size_t i, size_t j) const {
+    const float squared = (colours[i] - colours[j]).square().mean();
+    return std::min(kLargestDissent, squared / (kOrdinaryDifference * kOrdinaryDifference));
+  }
+};
+
+// What colours the chart has where photographs agree.
+Palette LearnPalette(const ChartCells& cells, int chart, const ColourModel& colour) {
+  Palette palette;
+  CellColours cell_colours;
+  for (int cell = 0; cell < cells.NumCells(); ++cell) {
+    cell_colours.Set(cells, cell, chart, colour);
+    const size_t count = cell_colours.seen.size();
+    for (size_t i = 0; i < count; ++i) {
+      for (size_t j = i + 1; j < count; ++j) {
+        if (cell_colours.Difference(i, j) > 1) continue;
+        palette.Add(cell_colours.colours[i]);
+        palette.Add(cell_colours.colours[j]);
+      }
+    }
+  }
+  return palette;
 }
 
-// Mean over the 3 x 3 neighbours that have a say: an occluder is larger than a cell.
-std::vector<float> Smooth(const ChartCells& cells, const std::vector<float>& dissent) {
+// Mean over the neighbours within `reach` cells that have a value (0 or more) for the same
+// photograph; -1 stays -1. An occluder is larger than a cell.
+std::vector<float> Smooth(const ChartCells& cells, const std::vector<float>& values, int reach) {
   const size_t num_photos = cells.photos.size();
-  std::vector<float> smooth(dissent.size(), -1);
+  const auto index = [&](int x, int y, size_t k) {
+    return (static_cast<size_t>(y) * cells.width + x) * num_photos + k;
+  };
+  // Rows, then columns: sums and counts.
+  std::vector<std::array<float, 2>> rows(values.size(), {0, 0});
+  for (int y = 0; y < cells.height; ++y) {
+    for (int x = 0; x < cells.width; ++x) {
+      for (int i = std::max(0, x - reach); i <= std::min(cells.width - 1, x + reach); ++i) {
+        for (size_t k = 0; k < num_photos; ++k) {
+          const float value = values[index(i, y, k)];
+          if (value < 0) continue;
+          rows[index(x, y, k)][0] += value;
+          rows[index(x, y, k)][1] += 1;
+        }
+      }
+    }
+  }
+  std::vector<float> smooth(values.size(), -1);
   for (int y = 0; y < cells.height; ++y) {
     for (int x = 0; x < cells.width; ++x) {
       for (size_t k = 0; k < num_photos; ++k) {
-        const size_t index = (static_cast<size_t>(y) * cells.width + x) * num_photos + k;
-        if (dissent[index] < 0) continue;
+        if (values[index(x, y, k)] < 0) continue;
         float sum = 0;
-        int count = 0;
-        for (int j = std::max(0, y - 1); j <= std::min(cells.height - 1, y + 1); ++j) {
-          for (int i = std::max(0, x - 1); i <= std::min(cells.width - 1, x + 1); ++i) {
-            const float value =
-                dissent[(static_cast<size_t>(j) * cells.width + i) * num_photos + k];
-            if (value < 0) continue;
-            sum += value;
-            ++count;
-          }
+        float count = 0;
+        for (int j = std::max(0, y - reach); j <= std::min(cells.height - 1, y + reach); ++j) {
+          sum += rows[index(x, j, k)][0];
+          count += rows[index(x, j, k)][1];
         }
-        smooth[index] = sum / static_cast<float>(count);
+        smooth[index(x, y, k)] = sum / count;
       }
     }
   }
   return smooth;
+}
+
+// Squared difference of each view to the consensus, in units of what is ordinary; -1 where nobody
+// else sees the cell. The consensus is the view that the others and the palette speak for, with
+// the surroundings' say.
+std::vector<float> MeasureDissent(const ChartCells& cells, int chart, const ColourModel& colour) {
+  const size_t num_photos = cells.photos.size();
+  const Palette palette = LearnPalette(cells, chart, colour);
+  std::vector<float> cost(cells.views.size(), -1);
+  CellColours cell_colours;
+  for (int cell = 0; cell < cells.NumCells(); ++cell) {
+    cell_colours.Set(cells, cell, chart, colour);
+    const size_t count = cell_colours.seen.size();
+    if (count < 2) continue;
+    for (size_t i = 0; i < count; ++i) {
+      float sum = 0;
+      float votes = 0;
+      for (size_t j = 0; j < count; ++j) {
+        if (j == i) continue;
+        sum += cell_colours.votes[j] * cell_colours.Difference(i, j);
+        votes += cell_colours.votes[j];
+      }
+      cost[cell * num_photos + cell_colours.seen[i]] =
+          sum / votes + kPaletteWeight * palette.Surprise(cell_colours.colours[i]);
+    }
+  }
+  cost = Smooth(cells, cost, 2);
+  std::vector<float> dissent(cells.views.size(), -1);
+  for (int cell = 0; cell < cells.NumCells(); ++cell) {
+    cell_colours.Set(cells, cell, chart, colour);
+    const size_t count = cell_colours.seen.size();
+    if (count < 2) continue;
+    size_t middle = 0;
+    for (size_t i = 1; i < count; ++i) {
+      if (cost[cell * num_photos + cell_colours.seen[i]] <
+          cost[cell * num_photos + cell_colours.seen[middle]]) {
+        middle = i;
+      }
+    }
+    for (size_t i = 0; i < count; ++i) {
+      dissent[cell * num_photos + cell_colours.seen[i]] = cell_colours.Difference(i, middle);
+    }
+  }
+  return Smooth(cells, dissent, 1);
 }
 
 }  // namespace
@@ -91,10 +157,12 @@ ChartChoice ChooseCells(const ChartCells& cells,
   ChartChoice choice;
   choice.best.assign(cells.NumCells(), -1);
   choice.acceptance.assign(cells.views.size(), 1);
-  if (options.reject_occluders && num_photos >= 3) {
-    const std::vector<float> dissent = Smooth(cells, MeasureDissent(cells, chart, colour));
+  if (options.reject_occluders && num_photos >= 2) {
+    const std::vector<float> dissent = MeasureDissent(cells, chart, colour);
     for (size_t i = 0; i < dissent.size(); ++i) {
       if (dissent[i] > 0) choice.acceptance[i] = std::exp(-dissent[i]);
+      choice.acceptance[i] *= static_cast<float>(
+          std::exp(-kEvenLightPreference * colour.photos[cells.photos[i % num_photos]].unevenness));
     }
   }
   for (int cell = 0; cell < cells.NumCells(); ++cell) {

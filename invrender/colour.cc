@@ -8,28 +8,7 @@
 namespace groundglass {
 namespace {
 
-// A cell that several photographs show.
-struct Overlap {
-  int chart;
-  int cell;
-};
-
-std::vector<Overlap> FindOverlaps(const std::vector<ChartCells>& cells) {
-  constexpr size_t kEnough = 60000;
-  std::vector<Overlap> overlaps;
-  for (size_t chart = 0; chart < cells.size(); ++chart) {
-    for (int cell = 0; cell < cells[chart].NumCells(); ++cell) {
-      const CellView* views = cells[chart].ViewsOf(cell);
-      int count = 0;
-      for (size_t k = 0; k < cells[chart].photos.size(); ++k) count += views[k].is_usable ? 1 : 0;
-      if (count >= 2) overlaps.push_back({static_cast<int>(chart), cell});
-    }
-  }
-  if (overlaps.size() <= kEnough) return overlaps;
-  std::vector<Overlap> thinned;
-  for (size_t i = 0; i < kEnough; ++i) thinned.push_back(overlaps[i * overlaps.size() / kEnough]);
-  return thinned;
-}
+constexpr double kEvenLight = 0.06;  // log units: what counts as no difference of light
 
 // The smallest value with half of the weight at or below it.
 float WeightedMedian(std::vector<std::pair<float, float>>& value_and_weight) {
@@ -44,81 +23,149 @@ float WeightedMedian(std::vector<std::pair<float, float>>& value_and_weight) {
   return 0;
 }
 
-// One gain and one vignetting for each photograph, one channel at a time.
-void SolveGains(const std::vector<ChartCells>& cells,
-                const std::vector<Overlap>& overlaps,
-                int channel,
-                std::vector<ColourModel::Photo>& photos) {
-  const int num_photos = static_cast<int>(photos.size());
-  Eigen::VectorXd solution = Eigen::VectorXd::Zero(2 * num_photos);
-  struct Row {
-    int photo;
-    double radius_squared;
-    double value;
-    double weight;
-  };
-  std::vector<Row> rows;
-  for (const double scale : {1.0, 0.6, 0.4, 0.25, 0.18, 0.15, 0.15, 0.15}) {
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(2 * num_photos, 2 * num_photos);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * num_photos);
-    for (const Overlap& overlap : overlaps) {
-      const ChartCells& chart = cells[overlap.chart];
-      const CellView* views = chart.ViewsOf(overlap.cell);
-      rows.clear();
-      for (size_t k = 0; k < chart.photos.size(); ++k) {
-        if (!views[k].is_usable) continue;
-        rows.push_back(
-            {chart.photos[k], views[k].radius_squared, views[k].log_radiance[channel], 1.0});
-      }
-      const auto residual = [&](const Row& row) {
-        return row.value - solution[2 * row.photo] -
-               solution[2 * row.photo + 1] * row.radius_squared;
-      };
-      // The cell's colour under the current gains: the middle one.
-      std::vector<double> residuals;
-      for (const Row& row : rows) residuals.push_back(residual(row));
-      std::sort(residuals.begin(), residuals.end());
-      const size_t n = residuals.size();
-      const double middle = (residuals[(n - 1) / 2] + residuals[n / 2]) / 2;
-      double sum_weight = 0;
-      double sum_value = 0;
-      for (Row& row : rows) {
-        const double e = (residual(row) - middle) / scale;
-        row.weight = 1 / ((1 + e * e) * (1 + e * e));
-        sum_weight += row.weight;
-        sum_value += row.weight * row.value;
-      }
-      // a_i is 1 at the gain and r^2 at the vignetting; eliminating the cell's colour leaves
-      // sum w a a^T - (sum w a)(sum w a)^T / sum w.
-      for (const Row& i : rows) {
-        const Eigen::Vector2d a(1, i.radius_squared);
-        right.segment<2>(2 * i.photo) += i.weight * (i.value - sum_value / sum_weight) * a;
-        normal.block<2, 2>(2 * i.photo, 2 * i.photo) += i.weight * a * a.transpose();
-        for (const Row& j : rows) {
-          normal.block<2, 2>(2 * i.photo, 2 * j.photo) -=
-              i.weight * j.weight / sum_weight * a * Eigen::RowVector2d(1, j.radius_squared);
+float Median(std::vector<float>& values) {
+  const size_t middle = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + middle, values.end());
+  return values[middle];
+}
+
+// The cells of one chart that two photographs both show.
+struct Pair {
+  int first = 0;  // photographs
+  int second = 0;
+  std::vector<std::pair<const CellView*, const CellView*>> views;
+  Eigen::Array3f difference = Eigen::Array3f::Zero();  // median of log radiance, first - second
+};
+
+std::vector<Pair> FindPairs(const std::vector<ChartCells>& cells) {
+  constexpr size_t kFewest = 6;
+  constexpr size_t kEnough = 2000;
+  std::vector<Pair> pairs;
+  for (const ChartCells& chart : cells) {
+    for (size_t a = 0; a < chart.photos.size(); ++a) {
+      for (size_t b = a + 1; b < chart.photos.size(); ++b) {
+        Pair pair{chart.photos[a], chart.photos[b], {}, Eigen::Array3f::Zero()};
+        for (int cell = 0; cell < chart.NumCells(); ++cell) {
+          const CellView* views = chart.ViewsOf(cell);
+          if (views[a].is_usable && views[b].is_usable)
+            pair.views.emplace_back(&views[a], &views[b]);
         }
+        if (pair.views.size() < kFewest) continue;
+        if (pair.views.size() > kEnough) {
+          const size_t num_views = pair.views.size();
+          for (size_t i = 0; i < kEnough; ++i) pair.views[i] = pair.views[i * num_views / kEnough];
+          pair.views.resize(kEnough);
+        }
+        pairs.push_back(std::move(pair));
       }
     }
-    // Weak priors: no gain and no vignetting where nothing speaks for them. They also anchor the
-    // mean.
-    const double prior = 1e-4 * static_cast<double>(overlaps.size()) + 1e-6;
-    for (int photo = 0; photo < num_photos; ++photo) {
-      normal(2 * photo, 2 * photo) += prior;
-      normal(2 * photo + 1, 2 * photo + 1) += 10 * prior;
+  }
+  return pairs;
+}
+
+// Vignetting from how differences change ACROSS a chart, so that neither exposure nor the light on
+// the chart as a whole matters.
+void SolveVignetting(const std::vector<Pair>& pairs,
+                     int channel,
+                     std::vector<ColourModel::Photo>& photos) {
+  constexpr double kScale = 0.15;  // log units: what grain and small occluders do
+  const Eigen::Index num_photos = static_cast<Eigen::Index>(photos.size());
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(num_photos);
+  for (int round = 0; round < 4; ++round) {
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(num_photos, num_photos);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(num_photos);
+    std::vector<float> residuals;
+    for (const Pair& pair : pairs) {
+      const auto value = [&](size_t i) {
+        const auto& [a, b] = pair.views[i];
+        return a->log_radiance[channel] - b->log_radiance[channel];
+      };
+      const auto residual = [&](size_t i) {
+        const auto& [a, b] = pair.views[i];
+        return static_cast<float>(value(i) - solution[pair.first] * a->radius_squared +
+                                  solution[pair.second] * b->radius_squared);
+      };
+      residuals.clear();
+      for (size_t i = 0; i < pair.views.size(); ++i) residuals.push_back(residual(i));
+      const float middle = Median(residuals);
+      // Weighted means, to eliminate the chart's own difference.
+      double sum_weight = 0;
+      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+      Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+      for (size_t i = 0; i < pair.views.size(); ++i) {
+        const double e = (residual(i) - middle) / kScale;
+        const double weight = 1 / ((1 + e * e) * (1 + e * e));
+        const Eigen::Vector3d row(
+            pair.views[i].first->radius_squared, -pair.views[i].second->radius_squared, value(i));
+        sum_weight += weight;
+        mean += weight * row;
+        scatter += weight * row * row.transpose();
+      }
+      if (sum_weight < 1) continue;
+      scatter -= mean * mean.transpose() / sum_weight;
+      const int index[2] = {pair.first, pair.second};
+      for (int i = 0; i < 2; ++i) {
+        right[index[i]] += scatter(i, 2);
+        for (int j = 0; j < 2; ++j) normal(index[i], index[j]) += scatter(i, j);
+      }
+    }
+    // Lenses darken corners by some tenths; photographs of one set do so alike.
+    const double prior = 20;
+    const double common = num_photos > 0 ? solution.mean() : 0;
+    for (Eigen::Index photo = 0; photo < num_photos; ++photo) {
+      normal(photo, photo) += prior;
+      right[photo] += prior * common;
     }
     solution = normal.ldlt().solve(right);
   }
-  for (int photo = 0; photo < num_photos; ++photo) {
-    photos[photo].log_gain[channel] = static_cast<float>(solution[2 * photo]);
-    photos[photo].vignetting[channel] = static_cast<float>(solution[2 * photo + 1]);
+  for (Eigen::Index photo = 0; photo < num_photos; ++photo) {
+    photos[photo].vignetting[channel] = static_cast<float>(solution[photo]);
+  }
+}
+
+// One gain for each photograph. A chart gives one difference for each pair that shows it, however
+// large it is: sun makes whole walls brighter. Differences on which the charts agree win.
+void SolveGains(std::vector<Pair>& pairs, int channel, std::vector<ColourModel::Photo>& photos) {
+  constexpr double kManyCells = 50;
+  const Eigen::Index num_photos = static_cast<Eigen::Index>(photos.size());
+  std::vector<float> differences;
+  for (Pair& pair : pairs) {
+    differences.clear();
+    for (const auto& [a, b] : pair.views) {
+      differences.push_back(a->log_radiance[channel] - b->log_radiance[channel] -
+                            photos[pair.first].vignetting[channel] * a->radius_squared +
+                            photos[pair.second].vignetting[channel] * b->radius_squared);
+    }
+    pair.difference[channel] = Median(differences);
+  }
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(num_photos);
+  for (const double scale : {2.0, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.13, 0.1, 0.1, 0.1}) {
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(num_photos, num_photos);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(num_photos);
+    for (const Pair& pair : pairs) {
+      const double value = pair.difference[channel];
+      const double e = (value - solution[pair.first] + solution[pair.second]) / scale;
+      const double count = static_cast<double>(pair.views.size());
+      const double weight = count / (count + kManyCells) / (1 + e * e);
+      normal(pair.first, pair.first) += weight;
+      normal(pair.second, pair.second) += weight;
+      normal(pair.first, pair.second) -= weight;
+      normal(pair.second, pair.first) -= weight;
+      right[pair.first] += weight * value;
+      right[pair.second] -= weight * value;
+    }
+    // A weak prior anchors the mean, and photographs that share nothing.
+    for (Eigen::Index photo = 0; photo < num_photos; ++photo) normal(photo, photo) += 1e-3;
+    solution = normal.ldlt().solve(right);
+  }
+  for (Eigen::Index photo = 0; photo < num_photos; ++photo) {
+    photos[photo].log_gain[channel] = static_cast<float>(solution[photo]);
   }
 }
 
 // One round of face gains around the cells' weighted medians.
 void SolveFaceGains(const std::vector<ChartCells>& cells, ColourModel& colour) {
-  constexpr double kEvenLight = 0.06;  // log units: what counts as no difference
-  constexpr double kFewCells = 12;     // below this many, a chart's gain is pulled to none
+  constexpr double kFewCells = 12;  // below this many, a chart's gain is pulled to none
   for (size_t chart = 0; chart < cells.size(); ++chart) {
     const ChartCells& grid = cells[chart];
     std::vector<Eigen::Array3f> shift(grid.photos.size(), Eigen::Array3f::Zero());
@@ -173,6 +220,20 @@ void SolveFaceGains(const std::vector<ChartCells>& cells, ColourModel& colour) {
   }
 }
 
+// The picture as a whole keeps the mean exposure of the photographs whose light is even.
+void AnchorOnMean(ColourModel& colour) {
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  float sum_weight = 0;
+  for (const ColourModel::Photo& photo : colour.photos) {
+    const double unevenness = photo.unevenness;
+    const auto weight = static_cast<float>(1 / (kEvenLight * kEvenLight + unevenness * unevenness));
+    // Vignetting darkens the outer parts only: what counts is the frame's middle.
+    sum += weight * photo.log_gain;
+    sum_weight += weight;
+  }
+  for (ColourModel::Photo& photo : colour.photos) photo.log_gain -= sum / sum_weight;
+}
+
 }  // namespace
 
 ColourModel MakeNeutralColour(const std::vector<ChartCells>& cells, size_t num_photos) {
@@ -186,12 +247,14 @@ ColourModel MakeNeutralColour(const std::vector<ChartCells>& cells, size_t num_p
 
 ColourModel EstimateColour(const std::vector<ChartCells>& cells, size_t num_photos) {
   ColourModel colour = MakeNeutralColour(cells, num_photos);
-  const std::vector<Overlap> overlaps = FindOverlaps(cells);
-  if (overlaps.empty()) return colour;
+  std::vector<Pair> pairs = FindPairs(cells);
+  if (pairs.empty()) return colour;
   for (int channel = 0; channel < 3; ++channel) {
-    SolveGains(cells, overlaps, channel, colour.photos);
+    SolveVignetting(pairs, channel, colour.photos);
+    SolveGains(pairs, channel, colour.photos);
   }
   for (int round = 0; round < 3; ++round) SolveFaceGains(cells, colour);
+  AnchorOnMean(colour);
   return colour;
 }
 
