@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/bake_output.h"
+
+#include "scene/atomic_file.h"
+#include "scene/error.h"
+#include "scene/image_io.h"
+#include "scene/textured_model_io.h"
+#include "scene/view_io.h"
+
+#include <algorithm>
+
+namespace groundglass {
+namespace {
+
+// Photographs in review still show most things right; near equals win over them.
+constexpr double kReviewWeight = 0.4;
+
+BakePhotograph MakeBakePhotograph(const Photograph& photograph, const Camera& camera) {
+  BakePhotograph bake;
+  bake.name = photograph.name;
+  bake.image_file = photograph.image_file;
+  bake.camera = camera;
+  bake.mask_file = photograph.mask_file;
+  bake.faces_file = photograph.faces_file;
+  return bake;
+}
+
+const Photograph* FindPhotograph(const Scene& scene, const std::string& name) {
+  const std::string stem = std::filesystem::path(name).stem().string();
+  for (const Photograph& photograph : scene.photographs) {
+    if (photograph.name == name || photograph.image_file.filename() == name) return &photograph;
+  }
+  for (const Photograph& photograph : scene.photographs) {
+    if (photograph.name == stem) return &photograph;
+  }
+  return nullptr;
+}
+
+// STEM_N.ext for N from `first` as long as there are any.
+void RemoveFrom(const std::filesystem::path& folder,
+                const std::string& stem,
+                size_t first,
+                const std::string& extension) {
+  for (size_t i = first;; ++i) {
+    std::error_code failure;
+    if (!std::filesystem::remove(folder / (stem + std::to_string(i) + extension), failure)) break;
+  }
+}
+
+}  // namespace
+
+std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
+                                              const std::vector<Registration>& registrations,
+                                              bool accepted_only) {
+  std::vector<BakePhotograph> selected;
+  for (const Registration& registration : registrations) {
+    if (registration.verdict == Verdict::kRejected) continue;
+    if (registration.verdict == Verdict::kReview && accepted_only) continue;
+    const Photograph* photograph = FindPhotograph(scene, registration.name);
+    if (!photograph) continue;
+    selected.push_back(MakeBakePhotograph(*photograph, registration.CorrectedCamera()));
+    if (registration.verdict == Verdict::kReview) selected.back().weight = kReviewWeight;
+  }
+  return selected;
+}
+
+std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
+                                              const std::vector<NamedCamera>& cameras) {
+  std::vector<BakePhotograph> selected;
+  for (const NamedCamera& camera : cameras) {
+    const Photograph* photograph = FindPhotograph(scene, camera.name);
+    if (photograph) selected.push_back(MakeBakePhotograph(*photograph, camera.camera));
+  }
+  if (selected.empty()) {
+    throw Error(scene.folder, "no photograph has the name of any of the cameras");
+  }
+  return selected;
+}
+
+std::vector<NamedCamera> ReadCameras(const Scene& scene, const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder / "images.txt")) return ReadColmapModel(folder);
+  std::vector<NamedCamera> cameras;
+  for (const Photograph& photograph : scene.photographs) {
+    const std::filesystem::path file = folder / (photograph.name + ".view");
+    if (!std::filesystem::exists(file)) continue;
+    cameras.push_back(
+        {photograph.name,
+         CameraFromTag(ReadView(file), photograph.size.width, photograph.size.height)});
+  }
+  if (cameras.empty()) {
+    throw Error(folder,
+                "expected .view files named after the scene's photographs, or a COLMAP text "
+                "model (cameras.txt, images.txt)");
+  }
+  return cameras;
+}
+
+void WriteBake(const BakeResult& result, const std::filesystem::path& out) {
+  const TexturedModel& model = result.model;
+  WriteGlb(out / "model.glb", model);
+  WriteTexturedObj(out / "model.obj", model);
+  for (size_t i = 0; i < model.pages.size(); ++i) {
+    WriteLabels(out / ("provenance_" + std::to_string(i) + ".png"), model.pages[i].provenance);
+  }
+  RemoveFrom(out, "model_", model.pages.size(), ".jpg");
+  RemoveFrom(out, "provenance_", model.pages.size(), ".png");
+  WriteFileAtomically(out / "coverage.json", FormatCoverage(result.coverage));
+}
+
+void WriteFaceMasks(const PolygonModel& model,
+                    std::span<const BakePhotograph> photographs,
+                    const std::filesystem::path& out,
+                    const Progress& progress) {
+  const Visibility visibility(model);
+  const int total = static_cast<int>(photographs.size());
+  for (int i = 0; i < total; ++i) {
+    const std::string file_name = photographs[i].name + ".png";
+    WriteLabels(out / "faces" / file_name, MakeFaceMask(model, visibility, photographs[i].camera));
+    if (progress) progress(i + 1, total, "wrote faces/" + file_name);
+  }
+}
+
+}  // namespace groundglass

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "invrender/invrender.h"
+#include "scene/colmap_io.h"
+#include "scene/registration.h"
+#include "scene/scene_folder.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace groundglass {
+
+// The photographs that the corrected tags allow to texture: accepted ones, and those in review at
+// a lower weight unless accepted_only. Rejected ones are left out.
+std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
+                                              const std::vector<Registration>& registrations,
+                                              bool accepted_only);
+
+// The photographs that these cameras are named after, by file name or stem. Throws Error if there
+// is none.
+std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
+                                              const std::vector<NamedCamera>& cameras);
+
+// Cameras from a folder: a COLMAP text model, or .view files named after the photographs.
+// Throws Error if it holds neither.
+std::vector<NamedCamera> ReadCameras(const Scene& scene, const std::filesystem::path& folder);
+
+// Writes model.glb, model.obj with .mtl and pages, coverage.json, and provenance_N.png. Pages that
+// an earlier bake left there and this one does not have are removed.
+void WriteBake(const BakeResult& result, const std::filesystem::path& out);
+
+// Writes the automatic masks, faces/NAME.png.
+void WriteFaceMasks(const PolygonModel& model,
+                    std::span<const BakePhotograph> photographs,
+                    const std::filesystem::path& out,
+                    const Progress& progress = {});
+
+}  // namespace groundglass
