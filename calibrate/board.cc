@@ -24,6 +24,8 @@ constexpr int kMinPhotographs = 3;
 // Before distortion is solved for, a photograph's corners lie this close to the board, as a share
 // of the frame's width; if not, it is another board.
 constexpr double kMaxStartMisfit = 0.1;
+// Sharp photographs of a flat board fit better than this (pixels).
+constexpr double kGoodRmsPx = 0.4;
 
 std::string Format(const char* format, double value) {
   std::array<char, 160> text;
@@ -105,6 +107,7 @@ void CheckFit(double rms_px, double max_rms_px) {
 
 // What would make the lens better known.
 std::vector<std::string> Remarks(const std::vector<BoardShot>& shots,
+                                 const LensSolution& solution,
                                  const Lens& lens,
                                  int width_px,
                                  int height_px) {
@@ -121,6 +124,12 @@ std::vector<std::string> Remarks(const std::vector<BoardShot>& shots,
     }
   }
   reach /= center_px.norm();
+  if (solution.rms_px > kGoodRmsPx) {
+    remarks.push_back(
+        Format("the corners miss the board by %.2f px, where a flat and well measured "
+               "one is good to 0.1: measure the tag size and the gap again",
+               solution.rms_px));
+  }
   if (reach < 0.75) {
     remarks.push_back(
         Format("the board reaches only %.0f %% of the way to the frame's corners: "
@@ -269,7 +278,7 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
     sighting.rms_px = RmsPx(board, shot, final_lens);
     sighting.cam_from_board = shot.cam_from_board;
   }
-  result.remarks = Remarks(shots, result.lens, width_px, height_px);
+  result.remarks = Remarks(shots, solution, result.lens, width_px, height_px);
   return result;
 }
 

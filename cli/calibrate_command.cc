@@ -89,7 +89,9 @@ void PrintResult(const BoardResult& result) {
 }
 
 int CalibrateFromPhotographs(const BoardArguments& arguments) {
-  if (arguments.lens_file.empty()) throw CLI::RequiredError("-o, the lens file to write,");
+  if (arguments.photographs.empty())
+    throw CLI::RequiredError("photographs of the board, or --print,");
+  if (arguments.lens_file.empty()) throw CLI::RequiredError("-o LENS_FILE");
   if (arguments.common.dry_run) {
     std::printf("would calibrate from %zu photographs and write %s\n",
                 arguments.photographs.size(),

@@ -253,6 +253,14 @@ TEST(CalibrateBoard, SaysSoWhenTheBoardIsFrontalAndSmall) {
   EXPECT_THAT(result.remarks, testing::Contains(testing::HasSubstr("the board is turned by")));
 }
 
+TEST(CalibrateBoard, SaysSoWhenTheGapWasMeasuredWrongly) {
+  Board wrong_gap;
+  wrong_gap.gap = 0.3;
+  const BoardResult result = CalibrateBoard(TakePhotographs(4, 7), wrong_gap);
+  EXPECT_THAT(result.remarks, testing::Contains(testing::HasSubstr("measure the tag size")));
+  EXPECT_GT(result.lens.sigma_view_angle_deg, 0.05);
+}
+
 TEST(CalibrateBoard, TheSamePhotographsGiveTheSameBits) {
   const std::vector<BoardPhotograph> photographs = TakePhotographs(4, 8);
   const BoardResult once = CalibrateBoard(photographs, Board{});
