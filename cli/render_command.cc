@@ -172,7 +172,7 @@ int RenderFilm(const RenderArguments& arguments) {
     orbit.height_px = size.height;
     path = MakeOrbit(model.model, num_frames, orbit);
   } else {
-    path = MakeFlight(ReadFilmCameras(arguments.path, size), num_frames);
+    path = MakeFlight(model.model, ReadFilmCameras(arguments.path, size), num_frames);
   }
   Renderer renderer(model);
   if (!arguments.common.dry_run) {

@@ -12,22 +12,50 @@
 namespace groundglass {
 namespace {
 
-// A camera as numbers that may be interpolated, its rotation apart.
+// A camera as numbers that may be interpolated, its rotation apart. On the way around a model the
+// position is given by bearing, distance and height from the model's upright axis, and the rotation
+// relative to the bearing: then a steady pose is a camera that circles the model and faces it.
 struct Pose {
-  // Position in world, focal lengths, principal point, k1, k2.
+  // Position (world, or bearing, distance, height), focal lengths, principal point, k1, k2.
   Eigen::Matrix<double, 9, 1> numbers = Eigen::Matrix<double, 9, 1>::Zero();
-  Eigen::Quaterniond world_from_cam = Eigen::Quaterniond::Identity();
+  Eigen::Quaterniond frame_from_cam = Eigen::Quaterniond::Identity();
 };
 
-Pose PoseOf(const Camera& camera) {
+// What poses are given in: world, or turning with the bearing around an upright axis.
+struct PoseFrame {
+  bool is_around = false;
+  Eigen::Vector3d axis_in_world = Eigen::Vector3d::Zero();  // a point of it
+};
+
+Eigen::Quaterniond TurnByBearing(double bearing) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(bearing, Eigen::Vector3d::UnitZ()));
+}
+
+Pose PoseOf(const Camera& camera, const PoseFrame& frame) {
   Pose pose;
-  pose.numbers << camera.PositionInWorld(), camera.focal_x_px, camera.focal_y_px,
-      camera.center_x_px, camera.center_y_px, camera.k1, camera.k2;
-  pose.world_from_cam = Eigen::Quaterniond(camera.cam_from_world.rotation.transpose());
+  Eigen::Vector3d position = camera.PositionInWorld();
+  pose.frame_from_cam = Eigen::Quaterniond(camera.cam_from_world.rotation.transpose());
+  if (frame.is_around) {
+    const Eigen::Vector3d out = position - frame.axis_in_world;
+    const double bearing = std::atan2(out.y(), out.x());
+    position = {bearing, out.head<2>().norm(), position.z()};
+    pose.frame_from_cam = TurnByBearing(-bearing) * pose.frame_from_cam;
+  }
+  pose.numbers << position, camera.focal_x_px, camera.focal_y_px, camera.center_x_px,
+      camera.center_y_px, camera.k1, camera.k2;
   return pose;
 }
 
-Camera CameraOf(const Pose& pose, const Camera& like) {
+Camera CameraOf(const Pose& pose, const PoseFrame& frame, const Camera& like) {
+  Eigen::Vector3d position = pose.numbers.head<3>();
+  Eigen::Quaterniond world_from_cam = pose.frame_from_cam.normalized();
+  if (frame.is_around) {
+    const double bearing = position[0];
+    world_from_cam = TurnByBearing(bearing) * world_from_cam;
+    position = {frame.axis_in_world.x() + position[1] * std::cos(bearing),
+                frame.axis_in_world.y() + position[1] * std::sin(bearing),
+                position[2]};
+  }
   Camera camera = like;
   camera.focal_x_px = pose.numbers[3];
   camera.focal_y_px = pose.numbers[4];
@@ -35,16 +63,27 @@ Camera CameraOf(const Pose& pose, const Camera& like) {
   camera.center_y_px = pose.numbers[6];
   camera.k1 = pose.numbers[7];
   camera.k2 = pose.numbers[8];
-  camera.cam_from_world.rotation = pose.world_from_cam.normalized().toRotationMatrix().transpose();
-  camera.cam_from_world.translation = -(camera.cam_from_world.rotation * pose.numbers.head<3>());
+  camera.cam_from_world.rotation = world_from_cam.toRotationMatrix().transpose();
+  camera.cam_from_world.translation = -(camera.cam_from_world.rotation * position);
   return camera;
+}
+
+PoseFrame ChoosePoseFrame(const PolygonModel& model, const std::vector<Camera>& cameras) {
+  const Box bounds = ComputeBounds(model);
+  const Eigen::AlignedBox3d box(bounds.min, bounds.max);
+  PoseFrame frame;
+  frame.axis_in_world = bounds.Center();
+  frame.is_around = std::none_of(cameras.begin(), cameras.end(), [&](const Camera& camera) {
+    return box.contains(camera.PositionInWorld());
+  });
+  return frame;
 }
 
 // The pose at time t on the straight way from a (at t_a) to b (at t_b); outside them, beyond.
 Pose Blend(const Pose& a, const Pose& b, double t_a, double t_b, double t) {
   const double share = (t - t_a) / (t_b - t_a);
   return {(1 - share) * a.numbers + share * b.numbers,
-          a.world_from_cam.slerp(share, b.world_from_cam)};
+          a.frame_from_cam.slerp(share, b.frame_from_cam)};
 }
 
 // Barry and Goldman's pyramid for the Catmull-Rom curve between knots 1 and 2 of four.
@@ -57,37 +96,49 @@ Pose CatmullRom(const std::array<Pose, 4>& poses, const std::array<double, 4>& k
   return Blend(d, e, knots[1], knots[2], t);
 }
 
-// How far apart two poses look: metres and turns do not compare, so the way is counted in sizes of
+// How far apart two cameras look: ways and turns do not compare, so the way is counted in sizes of
 // the whole path and the turn in half circles.
-double Separation(const Pose& a, const Pose& b, double path_size) {
-  const double way = (a.numbers.head<3>() - b.numbers.head<3>()).norm();
-  return way / path_size + a.world_from_cam.angularDistance(b.world_from_cam) / M_PI;
+double Separation(const Camera& a, const Camera& b, double path_size) {
+  const double way = (a.PositionInWorld() - b.PositionInWorld()).norm();
+  const Eigen::Matrix3d turn = a.cam_from_world.rotation * b.cam_from_world.rotation.transpose();
+  return way / path_size + Eigen::AngleAxisd(turn).angle() / M_PI;
 }
 
-// A curve through poses at knots.
+// A smooth curve through cameras.
 class Curve {
  public:
-  explicit Curve(const std::vector<Pose>& poses) {
+  Curve(const std::vector<Camera>& cameras, const PoseFrame& frame)
+      : frame_(frame), like_(cameras.front()) {
     Eigen::AlignedBox3d box;
-    for (const Pose& pose : poses) box.extend(Eigen::Vector3d(pose.numbers.head<3>()));
+    for (const Camera& camera : cameras) box.extend(camera.PositionInWorld());
     path_size_ = std::max(box.diagonal().norm(), 1e-9);
-    for (const Pose& pose : poses) {
-      // A camera given twice in a row is one.
-      if (!poses_.empty() && Separation(poses_.back(), pose, path_size_) < 1e-9) continue;
-      const double knot =
-          poses_.empty() ? 0
-                         : knots_.back() + std::sqrt(Separation(poses_.back(), pose, path_size_));
+    const Camera* previous = nullptr;
+    for (const Camera& camera : cameras) {
+      double knot = 0;
+      Pose pose = PoseOf(camera, frame);
+      if (previous) {
+        const double separation = Separation(*previous, camera, path_size_);
+        // A camera given twice in a row is one.
+        if (separation < 1e-9) continue;
+        knot = knots_.back() + std::sqrt(separation);
+        if (frame.is_around) {
+          // The shorter way around.
+          const double before = poses_.back().numbers[0];
+          pose.numbers[0] = before + std::remainder(pose.numbers[0] - before, 2 * M_PI);
+        }
+      }
       poses_.push_back(pose);
       knots_.push_back(knot);
+      previous = &camera;
     }
   }
 
   double Length() const { return knots_.back(); }
   double PathSize() const { return path_size_; }
 
-  Pose At(double t) const {
+  Camera At(double t) const {
     const int last = static_cast<int>(poses_.size()) - 1;
-    if (last == 0) return poses_.front();
+    if (last == 0) return CameraOf(poses_.front(), frame_, like_);
     const int segment = std::clamp(
         static_cast<int>(std::upper_bound(knots_.begin(), knots_.end(), t) - knots_.begin()) - 1,
         0,
@@ -103,10 +154,12 @@ class Curve {
                  : index > last ? knots_.back() + step
                                 : knots_[index];
     }
-    return CatmullRom(poses, knots, t);
+    return CameraOf(CatmullRom(poses, knots, t), frame_, like_);
   }
 
  private:
+  PoseFrame frame_;
+  Camera like_;
   std::vector<Pose> poses_;
   std::vector<double> knots_;
   double path_size_ = 1;
@@ -135,25 +188,25 @@ Camera ReframedCamera(const Camera& camera, int width_px, int height_px) {
   return reframed;
 }
 
-std::vector<Camera> MakeFlight(const std::vector<Camera>& cameras, int num_frames) {
+std::vector<Camera> MakeFlight(const PolygonModel& model,
+                               const std::vector<Camera>& cameras,
+                               int num_frames) {
   if (cameras.empty()) throw Error("camera path: it needs at least one view");
   if (num_frames < 1) throw Error("camera path: it needs at least one frame");
-  std::vector<Pose> poses;
   for (const Camera& camera : cameras) {
     if (camera.width_px != cameras.front().width_px ||
         camera.height_px != cameras.front().height_px) {
       throw Error("camera path: all its views must have one frame size");
     }
-    poses.push_back(PoseOf(camera));
   }
-  const Curve curve(poses);
+  const Curve curve(cameras, ChoosePoseFrame(model, cameras));
 
   // How far the path has come at each of many knots, so that it can be walked at an even pace.
   const int num_steps = 64 * static_cast<int>(cameras.size());
   std::vector<double> come = {0};
-  Pose previous = curve.At(0);
+  Camera previous = curve.At(0);
   for (int step = 1; step <= num_steps; ++step) {
-    const Pose next = curve.At(curve.Length() * step / num_steps);
+    const Camera next = curve.At(curve.Length() * step / num_steps);
     come.push_back(come.back() + Separation(previous, next, curve.PathSize()));
     previous = next;
   }
@@ -168,7 +221,7 @@ std::vector<Camera> MakeFlight(const std::vector<Camera>& cameras, int num_frame
         num_steps - 1);
     const double within = come[step + 1] - come[step];
     const double part = within > 0 ? (wanted - come[step]) / within : 0;
-    path.push_back(CameraOf(curve.At(curve.Length() * (step + part) / num_steps), cameras.front()));
+    path.push_back(curve.At(curve.Length() * (step + part) / num_steps));
   }
   return path;
 }
@@ -190,10 +243,6 @@ std::vector<Camera> MakeOrbit(const PolygonModel& model,
   options.Check();
   if (num_frames < 1) throw Error("camera path: it needs at least one frame");
   const Eigen::Vector3d middle = ComputeBounds(model).Center();
-  double radius = 1e-6;
-  for (const Eigen::Vector3d& point : model.points_in_world) {
-    radius = std::max(radius, (point - middle).norm());
-  }
   Camera camera;
   camera.width_px = options.width_px;
   camera.height_px = options.height_px;
@@ -201,25 +250,35 @@ std::vector<Camera> MakeOrbit(const PolygonModel& model,
       options.width_px / 2.0 / std::tan(RadiansFromDegrees(options.view_angle_deg) / 2);
   camera.center_x_px = options.width_px / 2.0;
   camera.center_y_px = options.height_px / 2.0;
-  // The sphere around the model touches the frame's nearer borders.
-  const double half_angle =
-      std::atan(std::min(options.width_px, options.height_px) / 2.0 / camera.focal_x_px);
-  const double distance = radius / std::sin(half_angle);
 
-  std::vector<Camera> path;
+  // Near enough for the model to fill nine tenths of the frame, at the bearing that needs most.
+  const double tangent_x = 0.9 * options.width_px / 2.0 / camera.focal_x_px;
+  const double tangent_y = 0.9 * options.height_px / 2.0 / camera.focal_y_px;
+  double distance = 1e-6;
+  std::vector<Eigen::Matrix3d> rotations;
   for (int frame = 0; frame < num_frames; ++frame) {
     const double bearing =
         RadiansFromDegrees(options.first_bearing_deg) + 2 * M_PI * frame / num_frames;
     const double height = RadiansFromDegrees(options.height_deg);
-    const Eigen::Vector3d out(std::sin(bearing) * std::cos(height),
-                              std::cos(bearing) * std::cos(height),
-                              std::sin(height));
-    const Eigen::Vector3d forward = -out;
+    const Eigen::Vector3d forward(-std::sin(bearing) * std::cos(height),
+                                  -std::cos(bearing) * std::cos(height),
+                                  -std::sin(height));
     const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
     const Eigen::Vector3d down = forward.cross(right);
-    camera.cam_from_world.rotation << right.transpose(), down.transpose(), forward.transpose();
-    camera.cam_from_world.translation =
-        -(camera.cam_from_world.rotation * (middle + distance * out));
+    Eigen::Matrix3d cam_from_world;
+    cam_from_world << right.transpose(), down.transpose(), forward.transpose();
+    rotations.push_back(cam_from_world);
+    for (const Eigen::Vector3d& point : model.points_in_world) {
+      const Eigen::Vector3d from_middle = cam_from_world * (point - middle);
+      distance = std::max({distance,
+                           std::abs(from_middle.x()) / tangent_x - from_middle.z(),
+                           std::abs(from_middle.y()) / tangent_y - from_middle.z()});
+    }
+  }
+  std::vector<Camera> path;
+  for (const Eigen::Matrix3d& rotation : rotations) {
+    camera.cam_from_world.rotation = rotation;
+    camera.cam_from_world.translation = Eigen::Vector3d(0, 0, distance) - rotation * middle;
     path.push_back(camera);
   }
   return path;

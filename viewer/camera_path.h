@@ -16,12 +16,16 @@ Camera ReframedCamera(const Camera& camera, int width_px, int height_px);
 
 // A smooth flight through the cameras, in order: Catmull-Rom through positions and lenses, the
 // same construction with slerp in place of lerp through rotations, at an even pace that starts and
-// ends gently. First and last frame are the first and last camera. All cameras must have the
-// frame size of the first; Error if there are none, or fewer than one frame.
+// ends gently. First and last frame are the first and last camera. If all cameras stand outside the
+// model's bounding box the way leads around it, by the shorter side, and keeps it in sight;
+// otherwise straight from camera to camera. All cameras must have the frame size of the first;
+// Error if there are none, or fewer than one frame.
 //
 // Catmull and Rom 1974; centripetal knots: Yuksel, Schaefer and Keyser 2011; the pyramid on the
 // sphere: Schlag, Graphics Gems II, 1991.
-std::vector<Camera> MakeFlight(const std::vector<Camera>& cameras, int num_frames);
+std::vector<Camera> MakeFlight(const PolygonModel& model,
+                               const std::vector<Camera>& cameras,
+                               int num_frames);
 
 struct OrbitOptions {
   int width_px = 1280;

@@ -43,7 +43,7 @@ const vec3 kPlaster = vec3(0.80, 0.77, 0.72);
 // A soft sun under a bright sky: a wall that the sun misses still shows its form.
 float Light(vec3 n) {
   float sun = max(dot(n, sun_direction), 0.0);
-  return 0.34 + 0.14 * n.z + 0.10 * dot(n.xy, sun_direction.xy) + 0.52 * sun;
+  return 0.42 + 0.12 * n.z + 0.16 * dot(n.xy, sun_direction.xy) + 0.38 * sun;
 }
 
 // Neighbouring numbers get hues far apart: steps of the golden ratio.
