@@ -27,8 +27,10 @@ struct RegisterOptions {
   int max_width_px = 1600;
   // A solution this far from the best one is another solution, px at a width of 1200.
   double rival_distance_px = 2.5;
-  // The best solution must score this much above its best rival, nats.
-  double min_margin_nats = 60;
+  // The best solution must score this much above its best rival for each vote that was cast, and
+  // this much in all, nats.
+  double min_margin_per_vote = 0.15;
+  double min_margin_nats = 20;
   // The best solution must score at least this for each vote that was cast (docs/accuracy.md).
   double min_nats_per_vote = 0.3;
   // No parameter may end further than this from its prior, in the prior's sigmas.

@@ -67,7 +67,9 @@ void JudgeRegistration(const Solution& best,
                       sigmas));
     }
   }
-  if (rival && registration.margin_nats < options.min_margin_nats) {
+  const double min_margin_nats =
+      std::max(options.min_margin_nats, options.min_margin_per_vote * best.score.votes);
+  if (rival && registration.margin_nats < min_margin_nats) {
     lower_to(Verdict::kReview,
              Format("a rival %.1f px away fits almost as well (margin %.0f nats)",
                     rival_distance_px,

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/registration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/registration_io.h"
+#include "scene/view_io.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
+
+namespace groundglass {
+namespace {
+
+using testing::HasSubstr;
+
+ViewTag S5() {
+  return ParseView("x 232 y -104 z 4.5 i 104 j -2 k 33.1 a 1.5 v 58 k2 0.01 sigma_roll 2 camera c",
+                   "s5.view");
+}
+
+TEST(ParametersFromTag, GivesTheThesisAngles) {
+  const CameraParameters parameters = ParametersFromTag(S5());
+  const double distance = std::sqrt(128.0 * 128 + 102.0 * 102 + 28.6 * 28.6);
+  EXPECT_NEAR(parameters[3], std::atan2(-128, 102) * kDegreesPerRadian, 1e-12);
+  EXPECT_NEAR(parameters[4], std::asin(28.6 / distance) * kDegreesPerRadian, 1e-12);
+}
+
+TEST(TagFromParameters, IsTheInverse) {
+  const ViewTag tag = S5();
+  const ViewTag again = TagFromParameters(ParametersFromTag(tag), tag);
+  EXPECT_LT((again.lookat_in_site - tag.lookat_in_site).norm(), 1e-12);
+  ViewTag rest = again;
+  rest.lookat_in_site = tag.lookat_in_site;
+  EXPECT_EQ(rest, tag);
+}
+
+TEST(TagFromParameters, KeepsTheMeasuredDistance) {
+  const ViewTag tag = S5();
+  CameraParameters parameters = ParametersFromTag(tag);
+  parameters[0] += 3;
+  parameters[3] += 7;
+  parameters[4] -= 4;
+  const ViewTag moved = TagFromParameters(parameters, tag);
+  EXPECT_NEAR((moved.lookat_in_site - moved.position_in_site).norm(),
+              (tag.lookat_in_site - tag.position_in_site).norm(),
+              1e-12);
+  EXPECT_NEAR((ParametersFromTag(moved) - parameters).norm(), 0, 1e-12);
+}
+
+TEST(TagDeviations, AgreeWithFiniteDifferences) {
+  const ViewTag tag = S5();
+  const CameraParameters parameters = ParametersFromTag(tag);
+  // Any covariance: the square of a full matrix.
+  CameraCovariance root;
+  for (int i = 0; i < root.size(); ++i) root(i) = std::sin(1.0 + i);
+  const CameraCovariance covariance = root * root.transpose();
+  const TagDeviations deviations = TagDeviationsFromCovariance(parameters, covariance, tag);
+  for (int key = 0; key < kNumTagKeys; ++key) {
+    CameraParameters gradient;
+    for (int i = 0; i < kNumCameraParameters; ++i) {
+      constexpr double kStep = 1e-5;
+      CameraParameters up = parameters, down = parameters;
+      up[i] += kStep;
+      down[i] -= kStep;
+      const TagKey tag_key = static_cast<TagKey>(key);
+      gradient[i] = (GetTagValue(TagFromParameters(up, tag), tag_key) -
+                     GetTagValue(TagFromParameters(down, tag), tag_key)) /
+                    (2 * kStep);
+    }
+    EXPECT_NEAR(deviations[key], std::sqrt(gradient.dot(covariance * gradient)), 1e-6)
+        << kTagKeyNames[key];
+  }
+}
+
+TEST(RegistrationFile, RoundTripsToTheLastBit) {
+  Registration registration;
+  registration.name = "s5";
+  registration.width_px = 1500;
+  registration.height_px = 1000;
+  registration.verdict = Verdict::kReview;
+  registration.reasons = {"a rival one \"tile\" to the left"};
+  registration.measured = S5();
+  registration.corrected = S5();
+  registration.corrected.position_in_site.x() += 1.0 / 3;
+  registration.sigmas.setLinSpaced(0.1, 0.7);
+  registration.prior_sigmas.setLinSpaced(1, 2);
+  for (int i = 0; i < registration.covariance.size(); ++i) {
+    registration.covariance(i) = 1 / (3.0 + i);
+  }
+  registration.undetermined = {"shift_x"};
+  registration.num_samples = 321;
+  registration.rms_px = 0.1 + 0.2;
+  registration.score_nats = 412.5;
+  registration.margin_nats = 61;
+  registration.moved_px = 16.8;
+  const TemporaryFolder folder;
+  const auto file =
+      folder.Write("registration.json", FormatRegistrations({registration, registration}));
+  const std::vector<Registration> read = ReadRegistrations(file);
+  ASSERT_EQ(read.size(), 2u);
+  const Registration& again = read[1];
+  EXPECT_EQ(again.name, "s5");
+  EXPECT_EQ(again.verdict, Verdict::kReview);
+  EXPECT_EQ(again.reasons, registration.reasons);
+  EXPECT_EQ(again.width_px, 1500);
+  EXPECT_EQ(again.measured, registration.measured);
+  EXPECT_EQ(again.corrected, registration.corrected);
+  EXPECT_EQ(again.sigmas, registration.sigmas);
+  EXPECT_EQ(again.prior_sigmas, registration.prior_sigmas);
+  EXPECT_EQ(again.covariance, registration.covariance);
+  EXPECT_EQ(again.undetermined, registration.undetermined);
+  EXPECT_EQ(again.num_samples, 321);
+  EXPECT_EQ(again.rms_px, registration.rms_px);
+  EXPECT_EQ(again.score_nats, 412.5);
+  EXPECT_EQ(again.margin_nats, 61);
+  EXPECT_EQ(again.moved_px, 16.8);
+}
+
+TEST(RegistrationFile, BadOnesGiveOneLine) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& text) {
+    const std::string thrown =
+        ThrownMessage([&] { ReadRegistrations(folder.Write("r.json", text)); });
+    EXPECT_EQ(thrown.find('\n'), std::string::npos);
+    return thrown;
+  };
+  EXPECT_THAT(message("{"), HasSubstr("r.json: not a registration file"));
+  EXPECT_THAT(message("[]"), HasSubstr("r.json: not a registration file"));
+  EXPECT_THAT(message("{\"photographs\": [{\"name\": \"s5\"}]}"), HasSubstr("verdict"));
+  EXPECT_THAT(message("{\"photographs\": [{\"name\": \"s5\", \"verdict\": \"fine\"}]}"),
+              HasSubstr("verdict 'fine' is not accepted, review or rejected"));
+}
+
+}  // namespace
+}  // namespace groundglass
