@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "viewer/report.h"
+
+#include "scene/error.h"
+#include "scene/feature_edges.h"
+#include "scene/image_io.h"
+#include "scene/registration_io.h"
+#include "scene/view_io.h"
+#include "scene/visibility.h"
+#include "viewer/overlay.h"
+#include "viewer/report_html.h"
+#include "viewer/report_style.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr size_t kManyPhotographs = 40;
+// A face of which less than this is seen is pointed out.
+constexpr double kWellCovered = 0.5;
+
+std::optional<Json> ReadJsonIfThere(const fs::path& file) {
+  if (!fs::exists(file)) return std::nullopt;
+  try {
+    return Json::parse(ReadTextFile(file));
+  } catch (const Json::exception& error) {
+    throw Error(file, std::string("is not JSON: ") + error.what());
+  }
+}
+
+// A tag's numbers in words, in the order of kCameraParameterNames.
+struct ParameterWords {
+  const char* name;
+  const char* unit;  // empty: the model's
+};
+constexpr std::array<ParameterWords, kNumCameraParameters> kParameterWords = {{
+    {"position, east (x)", ""},
+    {"position, south (y)", ""},
+    {"height (z)", ""},
+    {"direction (yaw)", "\u00b0"},
+    {"upward tilt (pitch)", "\u00b0"},
+    {"roll", "\u00b0"},
+    {"angle of view (v)", "\u00b0"},
+    {"aspect (a)", " "},
+    {"shift, right (shift_x)", " of width"},
+    {"shift, down (shift_y)", " of width"},
+    {"lens distortion (k1)", " "},
+}};
+
+std::string UnitName(const Scene* scene) {
+  if (!scene) return " units";
+  return scene->model.unit == LengthUnit::kFoot ? " ft" : " m";
+}
+
+std::string Plural(size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string VerdictCell(Verdict verdict) {
+  const std::string name(VerdictName(verdict));
+  return "<span class=\"verdict " + name + "\">" + name + "</span>";
+}
+
+std::string TextCell(const std::string& html) { return "<td>" + html + "</td>"; }
+std::string NumberCell(const std::string& html) { return "<td class=\"n\">" + html + "</td>"; }
+
+class Report {
+ public:
+  Report(const fs::path& folder, const Scene* scene, const ReportOptions& options)
+      : folder_(folder), scene_(scene), options_(options) {
+    if (fs::exists(folder / "registration.json")) {
+      registrations_ = ReadRegistrations(folder / "registration.json");
+    }
+    coverage_ = ReadJsonIfThere(folder / "coverage.json");
+    manifest_ = ReadJsonIfThere(folder / "manifest.json");
+    if (!registrations_ && !coverage_) {
+      throw Error(folder, "holds neither registration.json nor coverage.json: nothing to report");
+    }
+    if (options_.title.empty()) {
+      const fs::path named = scene ? scene->folder : folder;
+      options_.title = fs::weakly_canonical(named).filename().string();
+    }
+    if (registrations_ && registrations_->size() > kManyPhotographs) {
+      options_.picture_width_px = std::max(1, options_.picture_width_px / 2);
+    }
+  }
+
+  std::string Format() {
+    AddHeading();
+    AddNewViews();
+    if (registrations_) {
+      AddPhotographTable();
+    }
+    if (coverage_) AddCoverage();
+    if (registrations_) AddPhotographs();
+    AddFooter();
+    return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+           EscapeHtml(options_.title) + " \u2013 Groundglass</title>\n<style>" + kReportStyle +
+           "</style>\n</head>\n<body>\n" + body_ + "</body>\n</html>\n";
+  }
+
+ private:
+  size_t Count(Verdict verdict) const {
+    return static_cast<size_t>(
+        std::count_if(registrations_->begin(), registrations_->end(), [&](const Registration& r) {
+          return r.verdict == verdict;
+        }));
+  }
+
+  void AddFact(const std::string& number, const std::string& what) {
+    body_ += "<div><b>" + number + "</b><span>" + what + "</span></div>\n";
+  }
+
+  void AddHeading() {
+    body_ += "<h1>" + EscapeHtml(options_.title) + "</h1>\n";
+    body_ +=
+        "<p class=\"lead\">Where each photograph was taken from, corrected from the field notes "
+        "against the building\u2019s model, and what the photographs show of the building.</p>\n";
+    body_ += "<div class=\"facts\">\n";
+    if (registrations_) {
+      AddFact(std::to_string(registrations_->size()), "photographs");
+      AddFact(std::to_string(Count(Verdict::kAccepted)), "accepted");
+      AddFact(std::to_string(Count(Verdict::kReview)), "to be looked at");
+      AddFact(std::to_string(Count(Verdict::kRejected)), "left as measured");
+    }
+    if (coverage_) {
+      AddFact(FormatShare(coverage_->value("covered_share", 0.0)),
+              "of the model\u2019s surface seen");
+    }
+    body_ += "</div>\n";
+  }
+
+  void AddNewViews() {
+    std::vector<fs::path> pictures;
+    std::vector<fs::path> films;
+    if (fs::is_directory(folder_ / "renders")) {
+      for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "renders")) {
+        const std::string extension = entry.path().extension().string();
+        if (extension == ".jpg" || extension == ".png") pictures.push_back(entry.path());
+        if (extension == ".mp4") films.push_back(entry.path());
+      }
+    }
+    if (pictures.empty() && films.empty()) return;
+    const auto by_name = [](const fs::path& a, const fs::path& b) {
+      return NaturalLess(a.filename().string(), b.filename().string());
+    };
+    std::sort(pictures.begin(), pictures.end(), by_name);
+    std::sort(films.begin(), films.end(), by_name);
+    body_ +=
+        "<h2>New views</h2>\n<p>The textured model from viewpoints where no photograph was taken. "
+        "Plain grey is surface that no photograph shows.</p>\n<div class=\"pair\">\n";
+    for (const fs::path& picture : pictures) {
+      const std::string name = picture.stem().string();
+      body_ += "<figure>" +
+               EmbeddedPicture(ShrunkPicture(ReadSrgb8(picture), 2 * options_.picture_width_px),
+                               "new view " + name) +
+               "<figcaption>" + EscapeHtml(name) + "</figcaption></figure>\n";
+    }
+    body_ += "</div>\n";
+    for (const fs::path& film : films) {
+      const std::string name = film.filename().string();
+      body_ += "<p>Film: <a href=\"renders/" + EscapeHtml(name) + "\">" + EscapeHtml(name) +
+               "</a> (beside this report)</p>\n";
+    }
+  }
+
+  void AddPhotographTable() {
+    body_ +=
+        "<h2>Photographs</h2>\n"
+        "<p><span class=\"accepted verdict\">accepted</span>: the model\u2019s edges fit the "
+        "picture, within what the field notes allow. <span class=\"review verdict\">review</span>: "
+        "used, at lower weight; a person should look. <span class=\"rejected verdict\">rejected"
+        "</span>: no trustworthy fit; the field notes stand, and the photograph is not used.</p>\n"
+        "<table><thead><tr><th>Photograph</th><th>Verdict</th><th class=\"n\">Edges moved, px</th>"
+        "<th class=\"n\">Misfit left, px</th><th class=\"n\">Edge points</th><th>Remarks</th></tr>"
+        "</thead><tbody>\n";
+    for (const Registration& registration : *registrations_) {
+      std::string remarks;
+      for (const std::string& reason : registration.reasons) {
+        if (!remarks.empty()) remarks += "<br>";
+        remarks += EscapeHtml(reason);
+      }
+      const bool is_rejected = registration.verdict == Verdict::kRejected;
+      body_ += "<tr>" +
+               TextCell("<a href=\"#" + EscapeHtml(registration.name) + "\">" +
+                        EscapeHtml(registration.name) + "</a>") +
+               TextCell(VerdictCell(registration.verdict)) +
+               NumberCell(is_rejected ? "\u2013" : FormatNumber(registration.moved_px, 1)) +
+               NumberCell(registration.num_samples > 0 ? FormatNumber(registration.rms_px, 0.1)
+                                                       : "\u2013") +
+               NumberCell(std::to_string(registration.num_samples)) + TextCell(remarks) + "</tr>\n";
+    }
+    body_ += "</tbody></table>\n";
+  }
+
+  void AddCoverage() {
+    const Json faces = coverage_->value("faces", Json::array());
+    size_t num_missing = 0;
+    for (const Json& face : faces) {
+      if (FaceShare(face) < kWellCovered) ++num_missing;
+    }
+    const std::string unit = UnitName(scene_);
+    body_ += "<h2>Coverage</h2>\n<p>How much of each of the model\u2019s " +
+             Plural(faces.size(), "face") + " the photographs show. ";
+    body_ += num_missing == 0 ? "Every face is seen by half or more.</p>\n"
+                              : Plural(num_missing, "face") + " seen by less than half " +
+                                    (num_missing == 1 ? "is" : "are") +
+                                    " tinted: a photograph from there would help.</p>\n";
+    body_ += "<table><thead><tr><th class=\"n\">Face</th><th>Name</th><th class=\"n\">Area," +
+             unit + "\u00b2</th><th class=\"n\">Seen</th><th></th><th class=\"n\">Texel," + unit +
+             "</th><th>From</th></tr></thead><tbody>\n";
+    for (const Json& face : faces) AddFaceRow(face);
+    body_ += "</tbody></table>\n";
+  }
+
+  static double FaceShare(const Json& face) {
+    const double area = face.value("area", 0.0);
+    return area > 0 ? face.value("covered_area", 0.0) / area : 0;
+  }
+
+  void AddFaceRow(const Json& face) {
+    const double share = FaceShare(face);
+    const double texels = face.value("covered_texels", 0.0);
+    std::string from;
+    size_t num_left_out = 0;
+    for (const Json& source : face.value("sources", Json::array())) {
+      const double part = texels > 0 ? source.value("texels", 0.0) / texels : 0;
+      if (part < 0.05) {
+        ++num_left_out;
+        continue;
+      }
+      if (!from.empty()) from += ", ";
+      from += EscapeHtml(source.value("photograph", "")) + " <span class=\"soft\">" +
+              FormatShare(part) + "</span>";
+    }
+    if (num_left_out > 0) {
+      from += " <span class=\"soft\">and " + std::to_string(num_left_out) + " more</span>";
+    }
+    const int percent = static_cast<int>(std::lround(100 * std::clamp(share, 0.0, 1.0)));
+    body_ += std::string("<tr") + (share < kWellCovered ? " class=\"missing\"" : "") + ">" +
+             NumberCell(std::to_string(face.value("face", 0))) +
+             TextCell(EscapeHtml(face.value("name", ""))) +
+             NumberCell(FormatNumber(face.value("area", 0.0), 1)) + NumberCell(FormatShare(share)) +
+             TextCell("<span class=\"bar\"><i style=\"width:" + std::to_string(percent) +
+                      "%\"></i></span>") +
+             NumberCell(texels > 0 ? FormatSigma(face.value("texel_size", 0.0)) : "\u2013") +
+             TextCell(from) + "</tr>\n";
+  }
+
+  void AddPhotographs() {
+    body_ +=
+        "<h2>Each photograph</h2>\n<p>The model\u2019s edges drawn over the photograph, as the "
+        "field notes place them in grey, as corrected in blue; below, what was corrected, with one "
+        "standard deviation of what is left uncertain.</p>\n";
+    if (scene_) {
+      edges_ = FindModelEdges(scene_->model);
+      visibility_.emplace(scene_->model);
+    }
+    for (const Registration& registration : *registrations_) {
+      body_ += "<section class=\"photograph\" id=\"" + EscapeHtml(registration.name) +
+               "\">\n<header><h3>" + EscapeHtml(registration.name) + "</h3>" +
+               VerdictCell(registration.verdict) + "</header>\n";
+      if (!registration.reasons.empty()) {
+        body_ += "<ul>";
+        for (const std::string& reason : registration.reasons) {
+          body_ += "<li>" + EscapeHtml(reason) + "</li>";
+        }
+        body_ += "</ul>\n";
+      }
+      AddPictures(registration);
+      AddParameters(registration);
+      body_ += "</section>\n";
+    }
+  }
+
+  void AddPictures(const Registration& registration) {
+    const Photograph* photograph = nullptr;
+    if (scene_) {
+      for (const Photograph& candidate : scene_->photographs) {
+        if (candidate.name == registration.name) photograph = &candidate;
+      }
+    }
+    if (photograph) {
+      const Image8 picture =
+          ShrunkPicture(ReadSrgb8(photograph->image_file), options_.picture_width_px);
+      const Camera measured =
+          ResizedCamera(registration.MeasuredCamera(), picture.width, picture.height);
+      const Camera corrected =
+          ResizedCamera(registration.CorrectedCamera(), picture.width, picture.height);
+      body_ += "<div class=\"pair\">\n";
+      AddFigure(DrawOverlay(picture, scene_->model, edges_, *visibility_, measured, nullptr),
+                registration.name + " with the edges as measured",
+                "as measured");
+      if (registration.verdict != Verdict::kRejected) {
+        AddFigure(DrawOverlay(picture, scene_->model, edges_, *visibility_, measured, &corrected),
+                  registration.name + " with the edges as corrected",
+                  "corrected");
+      }
+      body_ += "</div>\n";
+      return;
+    }
+    const fs::path overlay = folder_ / "overlays" / (registration.name + ".jpg");
+    if (!fs::exists(overlay)) return;
+    AddFigure(ShrunkPicture(ReadSrgb8(overlay), 2 * options_.picture_width_px),
+              registration.name + " with the model's edges",
+              "measured in grey, corrected in blue");
+  }
+
+  void AddFigure(const Image8& picture, const std::string& description, const char* caption) {
+    body_ += "<figure>" + EmbeddedPicture(picture, description) + "<figcaption>" + caption +
+             "</figcaption></figure>\n";
+  }
+
+  void AddParameters(const Registration& registration) {
+    if (registration.verdict == Verdict::kRejected) return;
+    const CameraParameters measured = ParametersFromTag(registration.measured);
+    const CameraParameters corrected = ParametersFromTag(registration.corrected);
+    body_ +=
+        "<table><thead><tr><th>Number</th><th class=\"n\">Measured</th><th class=\"n\">Corrected"
+        "</th><th class=\"n\">Uncertainty, \u00b1</th><th class=\"n\">Moved</th><th class=\"n\">"
+        "Moved, in expected errors</th><th></th></tr></thead><tbody>\n";
+    for (int i = 0; i < kNumCameraParameters; ++i) {
+      const double sigma = registration.sigmas[i];
+      double moved = corrected[i] - measured[i];
+      if (kParameterWords[i].name == std::string("direction (yaw)")) {
+        moved = std::remainder(moved, 360.0);
+      }
+      // A number that nothing was done to says nothing.
+      if (sigma <= 0 && moved == 0) continue;
+      const std::string name(kCameraParameterNames[i]);
+      const bool is_undetermined =
+          std::find(registration.undetermined.begin(), registration.undetermined.end(), name) !=
+          registration.undetermined.end();
+      const std::string unit =
+          *kParameterWords[i].unit ? std::string(kParameterWords[i].unit) : UnitName(scene_);
+      const double prior = registration.prior_sigmas[i];
+      body_ += "<tr>" + TextCell(kParameterWords[i].name) +
+               NumberCell(FormatNumber(measured[i], sigma) + unit) +
+               NumberCell(FormatNumber(corrected[i], sigma) + unit) +
+               NumberCell(sigma > 0 ? FormatSigma(sigma) + unit : "\u2013") +
+               NumberCell(FormatNumber(moved, sigma) + unit) +
+               NumberCell(prior > 0 ? FormatNumber(std::abs(moved) / prior, 1) : "\u2013") +
+               TextCell(is_undetermined ? "<span class=\"soft\">no better known than before</span>"
+                                        : "") +
+               "</tr>\n";
+    }
+    body_ += "</tbody></table>\n";
+  }
+
+  void AddFooter() {
+    body_ += "<footer><p>Made by Groundglass";
+    if (manifest_) {
+      body_ += " " + EscapeHtml(manifest_->value("version", ""));
+      if (manifest_->contains("seed")) body_ += ", seed " + manifest_->at("seed").dump();
+    }
+    body_ +=
+        ". After Christopher Thorman\u2019s method of 1988: a photograph with a tag is a perspective "
+        "rendering of its subject.</p></footer>\n";
+  }
+
+  fs::path folder_;
+  const Scene* scene_;
+  ReportOptions options_;
+  std::optional<std::vector<Registration>> registrations_;
+  std::optional<Json> coverage_;
+  std::optional<Json> manifest_;
+  std::vector<ModelEdge> edges_;
+  std::optional<Visibility> visibility_;
+  std::string body_;
+};
+
+}  // namespace
+
+std::string FormatReport(const fs::path& out_folder,
+                         const Scene* scene,
+                         const ReportOptions& options) {
+  return Report(out_folder, scene, options).Format();
+}
+
+}  // namespace groundglass
