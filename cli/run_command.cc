@@ -1,9 +1,145 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/register_arguments.h"
+#include "invrender/bake_output.h"
+#include "invrender/invrender.h"
+#include "scene/atomic_file.h"
+#include "scene/error.h"
+#include "scene/image_io.h"
+#include "scene/registration_io.h"
+#include "scene/textured_model_io.h"
+#include "viewer/camera_path.h"
+#include "viewer/renderer.h"
+#include "viewer/report.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
 
 namespace groundglass {
+namespace {
 
-void AddRunCommand(CLI::App&, int&) {}
+struct RunArguments {
+  CommonOptions common;
+  RegisterArguments registering;
+  bool accepted_only = false;
+  int num_stills = 4;
+};
+
+// Stills from where nobody stood: along the flight through the photographs' viewpoints, midway
+// between them.
+void RenderStills(const std::filesystem::path& out,
+                  const TexturedModel& model,
+                  const std::vector<Registration>& registrations,
+                  int num_stills,
+                  const Progress& progress) {
+  std::vector<Camera> cameras;
+  for (const Registration& registration : registrations) {
+    if (registration.verdict != Verdict::kRejected) {
+      cameras.push_back(registration.CorrectedCamera());
+    }
+  }
+  if (cameras.size() < 2 || num_stills < 1) return;
+  // Twice as many frames as stills: every second one, from the first, lies between viewpoints.
+  const std::vector<Camera> flight = MakeFlight(model.model, cameras, 2 * num_stills + 1);
+  Renderer renderer(model);
+  RenderOptions options;
+  options.background = Background::kSky;
+  options.supersampling = 2;
+  for (int still = 0; still < num_stills; ++still) {
+    const std::string name = "still_" + std::to_string(still + 1) + ".jpg";
+    WriteSrgb8(out / "renders" / name, renderer.Render(flight[2 * still + 1], options));
+    if (progress) progress(still + 1, num_stills, name);
+  }
+}
+
+// What makes a finished stage worth keeping: the same inputs, options and program as now.
+bool CanResume(const std::filesystem::path& out, const Manifest& manifest) {
+  return HasManifest(out, manifest) && std::filesystem::exists(out / "registration.json");
+}
+
+int Run(const RunArguments& arguments) {
+  const RegisterArguments& registering = arguments.registering;
+  const CommonOptions& common = arguments.common;
+  const std::filesystem::path& out = registering.out_folder;
+  registering.options.Check();
+  const Scene scene = ReadSceneForCommand(registering, common);
+  Manifest manifest = DescribeInputs("run", scene, registering, common);
+  manifest.options["accepted-only"] = arguments.accepted_only ? "yes" : "no";
+  if (common.dry_run) {
+    std::printf("would register %zu photographs, bake %zu faces and write %s\n",
+                scene.photographs.size(),
+                scene.model.faces.size(),
+                out.string().c_str());
+    return kExitDone;
+  }
+  PrepareOutputFolder(out);
+  std::vector<Registration> registrations;
+  if (CanResume(out, manifest)) {
+    registrations = ReadRegistrations(out / "registration.json");
+    if (!common.quiet) std::fprintf(stderr, "keeping the tags that are there already\n");
+  } else {
+    // What another run left would be taken for this one's if it were stopped half way.
+    for (const char* stale : {"registration.json", "coverage.json", "report.html"}) {
+      std::filesystem::remove(out / stale);
+    }
+    WriteManifest(out, manifest);
+    registrations = RegisterAndWrite(scene, registering, common);
+  }
+  if (!common.json) PrintRegistrations(registrations);
+
+  const std::vector<BakePhotograph> photographs =
+      SelectPhotographs(scene, registrations, arguments.accepted_only);
+  if (photographs.empty()) {
+    std::fprintf(stderr,
+                 "groundglass: no photograph could be registered, so nothing is textured\n");
+  } else if (!std::filesystem::exists(out / "coverage.json")) {
+    WriteFaceMasks(scene.model, photographs, out, MakeProgress(common, "masking"));
+    const BakeResult bake =
+        BakeTextures(scene.model, photographs, {}, MakeProgress(common, "texturing"));
+    RenderStills(
+        out, bake.model, registrations, arguments.num_stills, MakeProgress(common, "rendering"));
+    WriteBake(bake, out);
+    if (!common.json) {
+      std::printf("texture covers %.1f %% of the model's surface\n",
+                  100 * bake.coverage.CoveredShare());
+    }
+  }
+  WriteFileAtomically(out / "report.html", FormatReport(out, &scene));
+
+  if (common.json) {
+    std::printf("%s", FormatRegistrations(registrations).c_str());
+  } else {
+    std::printf(
+        "\ncorrected tags   %s\noverlays         %s\ntextured model   %s\n"
+        "new viewpoints   %s\nthe whole story  %s\n",
+        (out / "views").string().c_str(),
+        (out / "overlays").string().c_str(),
+        (out / "model.glb").string().c_str(),
+        (out / "renders").string().c_str(),
+        (out / "report.html").string().c_str());
+  }
+  return ExitStatusOf(registrations);
+}
+
+}  // namespace
+
+void AddRunCommand(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = app.add_subcommand(
+      "run", "The main job: correct the tags, texture the model, report what was found");
+  AddRegisterArguments(command, arguments->registering);
+  command->add_flag("--accepted-only",
+                    arguments->accepted_only,
+                    "leave photographs in review out of the texture");
+  command->add_option("--stills", arguments->num_stills, "pictures from new viewpoints")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100));
+  AddCommonOptions(command, arguments->common);
+  command->callback([arguments, &exit_status] {
+    exit_status = RunWithThreads(arguments->common, [&] { return Run(*arguments); });
+  });
+}
 
 }  // namespace groundglass
