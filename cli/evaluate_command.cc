@@ -4,6 +4,7 @@
 #include "datasets-synthetic/evaluate.h"
 #include "scene/error.h"
 #include "scene/model_io.h"
+#include "viewer/renderer.h"
 
 #include <cstdio>
 #include <memory>
@@ -53,7 +54,13 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
                                                                     : fs::path(arguments->model),
                                            model_options)
                                      .model;
-      const Evaluation evaluation = Evaluate(arguments->found, truth, model);
+      EvaluateOptions options;
+      options.render = [](const TexturedModel& textured, const Camera& camera) {
+        RenderOptions render_options;
+        render_options.supersampling = 2;
+        return Render(textured, camera, render_options);
+      };
+      const Evaluation evaluation = Evaluate(arguments->found, truth, model, options);
       std::fputs(arguments->common.json ? FormatEvaluationJson(evaluation, model).c_str()
                                         : FormatEvaluationTable(evaluation, model).c_str(),
                  stdout);

@@ -73,8 +73,8 @@ Daylight MakeSunny(double azimuth_deg, double elevation_deg, uint64_t seed) {
                   std::sin(elevation)};
   // Low sun is redder.
   const auto warmth = static_cast<float>(std::exp(-elevation_deg / 18));
-  light.sun = Rgb(1.06f, 0.99f - 0.1f * warmth, 0.9f - 0.3f * warmth) * 1.12f;
-  light.sky = Rgb(0.3f, 0.36f, 0.45f) * 1.15f;
+  light.sun = Rgb(1.06f, 0.99f - 0.1f * warmth, 0.9f - 0.3f * warmth) * 0.98f;
+  light.sky = Rgb(0.3f, 0.36f, 0.45f);
   light.zenith = Rgb(0.16f, 0.29f, 0.56f);
   light.horizon = Rgb(0.5f, 0.6f, 0.72f);
   return light;
@@ -96,7 +96,7 @@ Rgb SkyRadiance(const Daylight& light, const Eigen::Vector3d& direction) {
     const double fade = std::clamp(height * 9, 0.0, 1.0);
     color += static_cast<float>(0.8 * cloud * fade) * (Rgb(0.86f, 0.87f, 0.9f) - color);
   } else {
-    color *= static_cast<float>(1 + 0.1 * density);
+    color *= static_cast<float>(1 + 0.1 * light.cloud_cover * density);
   }
   return color;
 }

@@ -18,7 +18,7 @@ struct Daylight {
   Rgb sky = Rgb(1, 1, 1);     // irradiance of a surface that sees the whole sky, over pi
   Rgb zenith = Rgb(1, 1, 1);  // radiance as seen
   Rgb horizon = Rgb(1, 1, 1);
-  double cloud_cover = 1;
+  double cloud_cover = 1;  // 0: a clear or an even sky
   uint64_t seed = 0;
 };
 

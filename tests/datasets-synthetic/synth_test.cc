@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "datasets-synthetic/synth.h"
+
+#include "datasets-synthetic/buildings.h"
+#include "datasets-synthetic/evaluate.h"
+#include "scene/error.h"
+#include "scene/model_io.h"
+#include "scene/scene_folder.h"
+#include "scene/view_io.h"
+#include "scene/visibility.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of this test's own, gone when it ends.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "synth-test-XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~TemporaryFolder() { fs::remove_all(path_); }
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+std::map<std::string, std::string> ReadFolder(const fs::path& folder) {
+  std::map<std::string, std::string> bytes_of_name;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    bytes_of_name[fs::relative(entry.path(), folder).string()] = bytes.str();
+  }
+  return bytes_of_name;
+}
+
+SynthRecipe SmallRecipe() {
+  SynthRecipe recipe = PresetRecipe("wiesner");
+  recipe.width_px = 120;
+  recipe.height_px = 80;
+  recipe.num_views = 5;
+  return recipe;
+}
+
+TEST(Synth, SameRecipeGivesSameBytesWhateverTheThreads) {
+  const TemporaryFolder folder;
+  {
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    WriteSyntheticScene(SmallRecipe(), folder / "one");
+  }
+  WriteSyntheticScene(SmallRecipe(), folder / "many");
+  const auto one = ReadFolder(folder / "one");
+  const auto many = ReadFolder(folder / "many");
+  ASSERT_EQ(one.size(), many.size());
+  for (const auto& [name, bytes] : one) EXPECT_TRUE(many.at(name) == bytes) << name;
+
+  // What it wrote is a scene as the formats page lays it out, and its truth.
+  const Scene scene = ReadScene(folder / "one");
+  EXPECT_EQ(scene.photographs.size(), 5u);
+  EXPECT_TRUE(scene.warnings.empty());
+  const Truth truth = ReadTruth(folder / "one" / "truth");
+  EXPECT_EQ(truth.cameras.size(), 5u);
+  EXPECT_EQ(truth.novel_views.size(), 3u);
+  const Evaluation tags = Evaluate(folder / "one", truth, scene.model);
+  EXPECT_GT(tags.all.mean_px, 0.3);
+  EXPECT_LT(tags.all.mean_px, 4);  // at 120 px wide
+
+  // The thesis' own figures, comments aside.
+  const ViewTag s5 = ReadView(folder / "one" / "views/s5.view");
+  EXPECT_EQ(s5.position_in_site, Eigen::Vector3d(232, -104, 4.5));
+  EXPECT_EQ(s5.lookat_in_site, Eigen::Vector3d(104, -2, 33.1));
+  EXPECT_EQ(s5.view_angle_deg, 58);
+  EXPECT_EQ(s5.aspect, 1.5);
+
+  EXPECT_THAT([&] { WriteSyntheticScene(SmallRecipe(), folder / "one"); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("not empty")));
+}
+
+TEST(Wiesner, HasAboutAHundredSoundFaces) {
+  const PolygonModel model = MakeWiesner(1988).world.Model();
+  EXPECT_GE(model.faces.size(), 80u);
+  EXPECT_LE(model.faces.size(), 120u);
+  for (int face = 0; face < static_cast<int>(model.faces.size()); ++face) {
+    const FaceCheck check = CheckFace(model, face);
+    EXPECT_EQ(check.fault, "") << DescribeFace(model, face);
+    EXPECT_EQ(check.warning, "") << DescribeFace(model, face);
+    EXPECT_NE(model.faces[face].name, "");
+  }
+}
+
+TEST(Wiesner, ShowsNoBackFacesAndNoGapsFromWhereItIsPhotographed) {
+  const Subject subject = MakeWiesner(1988);
+  const Visibility visibility(subject.world.geometry);
+  for (const PlannedView& view : subject.views) {
+    ViewTag tag;
+    tag.position_in_site = view.position_in_site;
+    tag.lookat_in_site = view.lookat_in_site;
+    const Camera camera = CameraFromTag(tag, 150, 100);
+    for (int y = 0; y < 100; ++y) {
+      for (int x = 0; x < 150; ++x) {
+        const Eigen::Vector3d direction = UnprojectToWorld(camera, {x + 0.5, y + 0.5});
+        const auto hit = visibility.FirstHit(camera.PositionInWorld(), direction);
+        if (hit && hit->face < subject.world.num_model_faces) {
+          EXPECT_TRUE(hit->is_front)
+              << view.name << " " << DescribeFace(subject.world.geometry, hit->face);
+        }
+      }
+    }
+  }
+}
+
+TEST(Wiesner, TheThesisViewLooksAtTheEastWall) {
+  const PolygonModel model = MakeWiesner(1988).world.Model();
+  ViewTag s5;
+  s5.position_in_site = {232, -104, 4.5};
+  s5.lookat_in_site = {104, -2, 33.1};
+  const Camera camera = CameraFromTag(s5, 300, 200);
+  const auto hit = Visibility(model).FirstHit(camera.PositionInWorld(), camera.ForwardInWorld());
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_THAT(model.faces[hit->face].name, testing::HasSubstr("east wall"));
+  EXPECT_NEAR((camera.PositionInWorld() + hit->distance * camera.ForwardInWorld()).x(), 104, 1e-3);
+}
+
+TEST(Recipe, ReadsBackAsWrittenAndOverridesSingleFields) {
+  SynthRecipe recipe = PresetRecipe("pure");
+  ApplyRecipeJson(R"({"seed": 7, "photo": {"grain": 0.05}})", "r.json", recipe);
+  EXPECT_EQ(recipe.seed, 7u);
+  EXPECT_EQ(recipe.photo.grain, 0.05);
+  EXPECT_EQ(recipe.slide.sigma_shift, 0);
+  SynthRecipe copy = PresetRecipe("wiesner");
+  ApplyRecipeJson(FormatRecipe(recipe), "copy.json", copy);
+  copy.preset = recipe.preset;
+  EXPECT_EQ(FormatRecipe(copy), FormatRecipe(recipe));
+}
+
+TEST(Recipe, WrongFieldsAreErrorsThatNameThem) {
+  SynthRecipe recipe = PresetRecipe("wiesner");
+  EXPECT_THAT([&] { ApplyRecipeJson(R"({"photo": {"gain": 1}})", "r.json", recipe); },
+              testing::ThrowsMessage<Error>("r.json: unknown recipe field photo/gain"));
+  EXPECT_THAT([&] { ApplyRecipeJson(R"({"photo": {"grain": "much"}})", "r.json", recipe); },
+              testing::ThrowsMessage<Error>(
+                  "r.json: recipe field photo/grain is not of the kind expected"));
+  EXPECT_THAT([] { PresetRecipe("louvre"); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("there are wiesner, pure")));
+  recipe.slide.sigma_shift = -1;
+  EXPECT_THAT([&] { recipe.Check(); },
+              testing::ThrowsMessage<Error>("recipe field slide/sigma_shift must not be negative"));
+}
+
+}  // namespace
+}  // namespace groundglass
