@@ -28,16 +28,25 @@ EdgeStyle MakeStyle(Srgb8Colour colour, double width_px, double silhouette_width
   return style;
 }
 
-void DrawLegend(Image8& picture, const EdgeStyle& measured, const EdgeStyle* corrected) {
+// One line of the legend for each camera drawn.
+struct LegendRow {
+  EdgeStyle style;
+  const char* text;
+};
+
+void DrawLegend(Image8& picture, const std::vector<LegendRow>& rows) {
+  if (rows.empty()) return;
   const double unit = LineUnit(picture);
   const double cap_height = 9 * unit;
   const double row_height = 19 * unit;
   const double sample_length = 34 * unit;
   const double pad = 10 * unit;
-  const int num_rows = corrected ? 2 : 1;
-  const double width =
-      3 * pad + sample_length + TextWidth(corrected ? "corrected" : "measured", cap_height);
-  const double height = num_rows * row_height + pad;
+  double text_width = 0;
+  for (const LegendRow& row : rows) {
+    text_width = std::max(text_width, TextWidth(row.text, cap_height));
+  }
+  const double width = 3 * pad + sample_length + text_width;
+  const double height = static_cast<double>(rows.size()) * row_height + pad;
   const double top = picture.height - pad - height;
 
   CoverageMask box(picture.width, picture.height, 1);
@@ -47,17 +56,17 @@ void DrawLegend(Image8& picture, const EdgeStyle& measured, const EdgeStyle* cor
     }
   }
   LayOver(picture, box, kCasingColour, 0.62);
-  for (int row = 0; row < num_rows; ++row) {
-    const EdgeStyle& style = row == 0 ? measured : *corrected;
-    const double y = top + pad / 2 + (row + 0.5) * row_height;
+  double y = top + pad / 2 + row_height / 2;
+  for (const LegendRow& row : rows) {
     CoverageMask sample(picture.width, picture.height, 1);
-    AddLine(sample, {2 * pad, y}, {2 * pad + sample_length, y}, style.silhouette_width_px);
-    LayOver(picture, sample, style.colour, 1);
+    AddLine(sample, {2 * pad, y}, {2 * pad + sample_length, y}, row.style.silhouette_width_px);
+    LayOver(picture, sample, row.style.colour, 1);
     DrawText(picture,
-             row == 0 ? "measured" : "corrected",
+             row.text,
              {3 * pad + sample_length, y + cap_height / 2},
              cap_height,
-             style.colour);
+             row.style.colour);
+    y += row_height;
   }
 }
 
@@ -78,22 +87,35 @@ Image8 DrawOverlay(const Image8& photograph_srgb8,
                    const PolygonModel& model,
                    const std::vector<ModelEdge>& edges,
                    const Visibility& visibility,
-                   const Camera& measured,
-                   const Camera* corrected) {
-  CheckSize(photograph_srgb8, measured, "measured");
-  if (corrected) CheckSize(photograph_srgb8, *corrected, "corrected");
+                   const OverlayCameras& cameras) {
+  if (cameras.measured) CheckSize(photograph_srgb8, *cameras.measured, "measured");
+  if (cameras.corrected) CheckSize(photograph_srgb8, *cameras.corrected, "corrected");
   Image8 picture = photograph_srgb8;
   const double unit = LineUnit(picture);
-  const EdgeStyle measured_style = MakeStyle(kMeasuredColour, 1.1 * unit, 1.7 * unit);
-  const EdgeStyle corrected_style = MakeStyle(kCorrectedColour, 1.4 * unit, 2.2 * unit);
-  const auto draw = [&](const Camera& camera, const EdgeStyle& style) {
-    const auto spans = FindVisibleSpans(model, edges, visibility, camera, EdgeMargin(style));
-    DrawEdges(picture, spans, camera, style);
+  std::vector<LegendRow> legend;
+  const auto draw = [&](const Camera& camera, const LegendRow& row) {
+    const auto spans = FindVisibleSpans(model, edges, visibility, camera, EdgeMargin(row.style));
+    DrawEdges(picture, spans, camera, row.style);
+    legend.push_back(row);
   };
-  draw(measured, measured_style);
-  if (corrected) draw(*corrected, corrected_style);
-  DrawLegend(picture, measured_style, corrected ? &corrected_style : nullptr);
+  if (cameras.measured) {
+    draw(*cameras.measured, {MakeStyle(kMeasuredColour, 1.1 * unit, 1.7 * unit), "measured"});
+  }
+  if (cameras.corrected) {
+    draw(*cameras.corrected, {MakeStyle(kCorrectedColour, 1.4 * unit, 2.2 * unit), "corrected"});
+  }
+  DrawLegend(picture, legend);
   return picture;
+}
+
+Image8 DrawOverlay(const Image8& photograph_srgb8,
+                   const PolygonModel& model,
+                   const std::vector<ModelEdge>& edges,
+                   const Visibility& visibility,
+                   const Camera& measured,
+                   const Camera* corrected) {
+  return DrawOverlay(
+      photograph_srgb8, model, edges, visibility, OverlayCameras{&measured, corrected});
 }
 
 }  // namespace groundglass

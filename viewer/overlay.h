@@ -23,4 +23,15 @@ Image8 DrawOverlay(const Image8& photograph_srgb8,
                    const Camera& measured,
                    const Camera* corrected);
 
+// The same with either camera left out (null).
+struct OverlayCameras {
+  const Camera* measured = nullptr;
+  const Camera* corrected = nullptr;
+};
+Image8 DrawOverlay(const Image8& photograph_srgb8,
+                   const PolygonModel& model,
+                   const std::vector<ModelEdge>& edges,
+                   const Visibility& visibility,
+                   const OverlayCameras& cameras);
+
 }  // namespace groundglass

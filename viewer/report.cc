@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -98,9 +99,7 @@ class Report {
   std::string Format() {
     AddHeading();
     AddNewViews();
-    if (registrations_) {
-      AddPhotographTable();
-    }
+    if (registrations_) AddPhotographTable();
     if (coverage_) AddCoverage();
     if (registrations_) AddPhotographs();
     AddFooter();
@@ -210,17 +209,28 @@ class Report {
     for (const Json& face : faces) {
       if (FaceShare(face) < kWellCovered) ++num_missing;
     }
-    const std::string unit = UnitName(scene_);
     body_ += "<h2>Coverage</h2>\n<p>How much of each of the model\u2019s " +
              Plural(faces.size(), "face") + " the photographs show. ";
-    body_ += num_missing == 0 ? "Every face is seen by half or more.</p>\n"
-                              : Plural(num_missing, "face") + " seen by less than half " +
-                                    (num_missing == 1 ? "is" : "are") +
-                                    " tinted: a photograph from there would help.</p>\n";
+    if (num_missing == 0) {
+      body_ += "Every face is seen by half or more.</p>\n";
+    } else {
+      body_ += Plural(num_missing, "face") + (num_missing == 1 ? " is" : " are") +
+               " seen by less than half: a photograph from there would help.</p>\n";
+      AddFaceTable(faces, [](double share) { return share < kWellCovered; });
+    }
+    body_ += "<details><summary>All faces</summary>\n";
+    AddFaceTable(faces, [](double) { return true; });
+    body_ += "</details>\n";
+  }
+
+  void AddFaceTable(const Json& faces, const std::function<bool(double)>& is_wanted) {
+    const std::string unit = UnitName(scene_);
     body_ += "<table><thead><tr><th class=\"n\">Face</th><th>Name</th><th class=\"n\">Area," +
              unit + "\u00b2</th><th class=\"n\">Seen</th><th></th><th class=\"n\">Texel," + unit +
              "</th><th>From</th></tr></thead><tbody>\n";
-    for (const Json& face : faces) AddFaceRow(face);
+    for (const Json& face : faces) {
+      if (is_wanted(FaceShare(face))) AddFaceRow(face);
+    }
     body_ += "</tbody></table>\n";
   }
 
@@ -299,11 +309,14 @@ class Report {
       const Camera corrected =
           ResizedCamera(registration.CorrectedCamera(), picture.width, picture.height);
       body_ += "<div class=\"pair\">\n";
-      AddFigure(DrawOverlay(picture, scene_->model, edges_, *visibility_, measured, nullptr),
+      const auto draw = [&](const OverlayCameras& cameras) {
+        return DrawOverlay(picture, scene_->model, edges_, *visibility_, cameras);
+      };
+      AddFigure(draw({&measured, nullptr}),
                 registration.name + " with the edges as measured",
                 "as measured");
       if (registration.verdict != Verdict::kRejected) {
-        AddFigure(DrawOverlay(picture, scene_->model, edges_, *visibility_, measured, &corrected),
+        AddFigure(draw({nullptr, &corrected}),
                   registration.name + " with the edges as corrected",
                   "corrected");
       }
@@ -347,7 +360,7 @@ class Report {
       const double prior = registration.prior_sigmas[i];
       body_ += "<tr>" + TextCell(kParameterWords[i].name) +
                NumberCell(FormatNumber(measured[i], sigma) + unit) +
-               NumberCell(FormatNumber(corrected[i], sigma) + unit) +
+               NumberCell(FormatNumber(measured[i] + moved, sigma) + unit) +
                NumberCell(sigma > 0 ? FormatSigma(sigma) + unit : "\u2013") +
                NumberCell(FormatNumber(moved, sigma) + unit) +
                NumberCell(prior > 0 ? FormatNumber(std::abs(moved) / prior, 1) : "\u2013") +
@@ -365,7 +378,8 @@ class Report {
       if (manifest_->contains("seed")) body_ += ", seed " + manifest_->at("seed").dump();
     }
     body_ +=
-        ". After Christopher Thorman\u2019s method of 1988: a photograph with a tag is a perspective "
+        ". After Christopher Thorman\u2019s method of 1988: a photograph with a tag is a "
+        "perspective "
         "rendering of its subject.</p></footer>\n";
   }
 

@@ -46,6 +46,7 @@ figcaption { font-size: .88rem; color: var(--soft); padding: .35rem 0 0; }
   border: 1px solid var(--line); }
 .bar i { display: block; height: 100%; background: var(--bar); }
 .missing td { background: var(--wash); }
+summary { cursor: pointer; color: var(--soft); margin: 1rem 0 0; }
 footer { margin-top: 4rem; padding-top: 1rem; border-top: 1px solid var(--line);
   font-size: .88rem; color: var(--soft); }
 @media print { body { padding: 0; max-width: none; font-size: 10pt; } h2 { break-after: avoid; } }
