@@ -111,9 +111,17 @@ std::vector<EdgeCandidate> EdgeEvidence::FindCandidates(const Eigen::Vector2d& i
     const float before = sign * along[k - 1];
     const float after = sign * along[k + 1];
     if (before > here || after >= here) continue;
-    // The vertex of the parabola through three samples.
-    const float curvature = before - 2 * here + after;
-    const float shift = curvature < 0 ? 0.5f * (before - after) / curvature : 0.f;
+    // The vertex of the parabola through the logarithms of three samples: a step edge seen through
+    // a Gaussian has a Gaussian profile, whose logarithm is a parabola.
+    float shift = 0;
+    if (before > 0 && after > 0) {
+      const float log_before = std::log(before);
+      const float log_after = std::log(after);
+      const float curvature = log_before - 2 * std::log(here) + log_after;
+      if (curvature < 0) shift = 0.5f * (log_before - log_after) / curvature;
+    } else {
+      shift = 0.5f * (before - after) / (before - 2 * here + after);
+    }
     const double offset_px = (k - reach + shift) * level.scale;
     if (std::abs(offset_px) > range_px) continue;
     candidates.push_back({offset_px, along[k]});

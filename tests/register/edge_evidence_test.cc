@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/edge_evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+// A straight border between two greys at n . p = offset, exact to subpixels by area averaging.
+Image8 StepImage(const Eigen::Vector2d& normal, double offset_px) {
+  Image8 image(120, 100, 1);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      double bright = 0;
+      for (int i = 0; i < 64; ++i) {
+        const Eigen::Vector2d at(x + (i % 8 + 0.5) / 8, y + (i / 8 + 0.5) / 8);
+        bright += normal.dot(at) > offset_px;
+      }
+      *image.At(x, y) = static_cast<uint8_t>(60 + 120 * bright / 64 + 0.5);
+    }
+  }
+  return image;
+}
+
+TEST(EdgeEvidence, FindsAStepToATenthOfAPixel) {
+  for (const double turn_deg : {0.0, 20.0, 45.0, 77.0, 90.0, 140.0}) {
+    const double turn = turn_deg / 57.29577951308232;
+    const Eigen::Vector2d normal(std::cos(turn), std::sin(turn));
+    const Eigen::Vector2d sample(60.3, 50.1);
+    const double truth_px = 1.37;
+    const EdgeEvidence evidence(StepImage(normal, normal.dot(sample) + truth_px), {});
+    const auto candidates = evidence.FindCandidates(sample, normal, 6, 8, 25);
+    ASSERT_EQ(candidates.size(), 1u) << turn_deg;
+    EXPECT_NEAR(candidates[0].offset_px, truth_px, 0.1) << turn_deg;
+    EXPECT_GT(candidates[0].strength, 0) << "brighter along the normal";
+  }
+}
+
+TEST(EdgeEvidence, AWideSearchFindsTheSameStepOnACoarserScale) {
+  const Eigen::Vector2d normal(1, 0);
+  const Eigen::Vector2d sample(60, 50);
+  const EdgeEvidence evidence(StepImage(normal, 84.0), {});
+  const auto candidates = evidence.FindCandidates(sample, normal, 40, 8, 25);
+  ASSERT_EQ(candidates.size(), 1u);
+  EXPECT_NEAR(candidates[0].offset_px, 24, 0.5);
+}
+
+TEST(EdgeEvidence, TheGateKeepsOutEdgesThatRunAcross) {
+  const double turn = 40 / 57.29577951308232;
+  const EdgeEvidence evidence(StepImage({std::cos(turn), std::sin(turn)}, 80), {});
+  EXPECT_TRUE(evidence.FindCandidates({60, 52}, {1, 0}, 10, 8, 25).empty());
+  EXPECT_FALSE(evidence.FindCandidates({60, 52}, {1, 0}, 10, 8, 60).empty());
+}
+
+TEST(EdgeEvidence, WhatIsMaskedIsNoEvidence) {
+  Image8 ignore(120, 100, 1);
+  for (int y = 0; y < 100; ++y) {
+    for (int x = 50; x < 80; ++x) *ignore.At(x, y) = 1;
+  }
+  const EdgeEvidence evidence(StepImage({1, 0}, 61), ignore);
+  EXPECT_TRUE(evidence.FindCandidates({60, 50}, {1, 0}, 6, 8, 25).empty());
+}
+
+TEST(EdgeEvidence, AFlatPhotographHasNoEdges) {
+  const EdgeEvidence evidence(Image8(120, 100, 1, 128), {});
+  EXPECT_TRUE(evidence.FindCandidates({60, 50}, {1, 0}, 20, 8, 25).empty());
+}
+
+}  // namespace
+}  // namespace groundglass

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/register_scene.h"
+
+#include "register/registration_output.h"
+#include "scene/colmap_io.h"
+#include "scene/registration_io.h"
+#include "scene/view_io.h"
+#include "tests/register/house.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+namespace groundglass {
+namespace {
+
+std::filesystem::path BrickFolder() {
+  return std::filesystem::path(GROUNDGLASS_SOURCE_DIR) / "datasets-synthetic" / "brick";
+}
+
+// The château is kept outside the project; empty if it is not there.
+std::filesystem::path ChateauFolder() {
+  const char* data = std::getenv("GROUNDGLASS_DATA");
+  const std::filesystem::path folder =
+      (data ? std::filesystem::path(data)
+            : std::filesystem::path(GROUNDGLASS_SOURCE_DIR) / ".." / "shared" / "data") /
+      "sceaux";
+  return std::filesystem::exists(folder / "model.osu") ? folder : std::filesystem::path();
+}
+
+struct SceneErrors {
+  std::vector<double> accepted_px;
+  int num_flagged = 0;
+};
+
+SceneErrors MeasureErrors(const Scene& scene, const std::vector<Registration>& registrations) {
+  SceneErrors errors;
+  const std::vector<NamedCamera> truth = ReadColmapModel(scene.folder / "truth" / "cameras");
+  for (const Registration& registration : registrations) {
+    const auto camera = std::find_if(truth.begin(), truth.end(), [&](const NamedCamera& named) {
+      return std::filesystem::path(named.name).stem() == registration.name;
+    });
+    if (camera == truth.end()) {
+      ADD_FAILURE() << "no true camera for " << registration.name;
+      continue;
+    }
+    if (registration.verdict != Verdict::kAccepted) {
+      EXPECT_FALSE(registration.reasons.empty()) << registration.name;
+      ++errors.num_flagged;
+      continue;
+    }
+    errors.accepted_px.push_back(
+        VertexErrorPx(scene.model, camera->camera, registration.CorrectedCamera()));
+    EXPECT_LT(errors.accepted_px.back(), 1.0) << registration.name;
+  }
+  std::sort(errors.accepted_px.begin(), errors.accepted_px.end());
+  return errors;
+}
+
+TEST(RegisterScene, TheBrickBuildingsSlidesAreFoundToHalfAPixel) {
+  const Scene scene = ReadScene(BrickFolder());
+  const SceneErrors errors = MeasureErrors(scene, RegisterScene(scene, {}, {}, {}));
+  ASSERT_GE(errors.accepted_px.size(), 10u);
+  EXPECT_EQ(errors.accepted_px.size() + errors.num_flagged, 12u);
+  EXPECT_LT(errors.accepted_px[errors.accepted_px.size() / 2], 0.5);
+}
+
+TEST(RegisterScene, RealPhotographsAreFoundToThreeFifthsOfAPixel) {
+  const std::filesystem::path folder = ChateauFolder();
+  if (folder.empty()) GTEST_SKIP() << "the château is not here; set GROUNDGLASS_DATA to its parent";
+  const Scene scene = ReadScene(folder);
+  const SceneErrors errors = MeasureErrors(scene, RegisterScene(scene, {}, {}, {}));
+  ASSERT_GE(errors.accepted_px.size(), 5u);
+  EXPECT_LT(errors.accepted_px[errors.accepted_px.size() / 2], 0.6);
+}
+
+TEST(RegisterScene, TheNumberOfThreadsDoesNotChangeTheResult) {
+  Scene scene = ReadScene(BrickFolder());
+  scene.photographs.resize(2);
+  std::string one;
+  {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    one = FormatRegistrations(RegisterScene(scene, {}, {}, {}));
+  }
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
+  EXPECT_EQ(one, FormatRegistrations(RegisterScene(scene, {}, {}, {})));
+}
+
+TEST(RegisterScene, AMaskOfAnotherSizeIsAnError) {
+  Scene scene = ReadScene(BrickFolder());
+  scene.photographs.resize(1);
+  const TemporaryFolder folder;
+  scene.photographs[0].mask_file = folder / "s1.png";
+  WriteLabels(*scene.photographs[0].mask_file, Image16(30, 20, 1));
+  try {
+    RegisterScene(scene, {}, {}, {});
+    FAIL();
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find("mask is 30x20, but its photograph is 1200x800"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(RegistrationOutput, CorrectedTagsAndColmapCamerasAgree) {
+  Scene scene = ReadScene(BrickFolder());
+  scene.photographs.resize(2);
+  std::vector<Registration> registrations = RegisterScene(scene, {}, {}, {});
+  registrations[1].verdict = Verdict::kRejected;
+  registrations[1].corrected = registrations[1].measured;
+  const TemporaryFolder folder;
+  WriteRegistrationOutput(scene, registrations, folder.path());
+  const std::vector<NamedCamera> cameras = ReadColmapModel(folder / "cameras");
+  ASSERT_EQ(cameras.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    const Camera from_view =
+        CameraFromTag(ReadView(folder / ("views/" + registrations[i].name + ".view")), 1200, 800);
+    EXPECT_LT(VertexErrorPx(scene.model, cameras[i].camera, from_view), 1e-6);
+  }
+  // A rejected photograph's view file is the hand-written one, to the byte.
+  EXPECT_EQ(ReadTextFile(folder / "views/s2.view"), ReadTextFile(scene.photographs[1].view_file));
+}
+
+}  // namespace
+}  // namespace groundglass
