@@ -31,6 +31,9 @@ void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("slide/sigma_turn_deg", recipe.slide.sigma_turn_deg);
   visit("slide/sigma_scale", recipe.slide.sigma_scale);
   visit("slide/sigma_anisotropy", recipe.slide.sigma_anisotropy);
+  visit("slide/mount_margin", recipe.slide.mount_margin);
+  visit("slide/specks", recipe.slide.specks);
+  visit("slide/scratches", recipe.slide.scratches);
   visit("lens/k1", recipe.lens.k1);
   visit("photo/sunny_share", recipe.photo.sunny_share);
   visit("photo/sigma_exposure_stops", recipe.photo.sigma_exposure_stops);
@@ -38,6 +41,12 @@ void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("photo/max_vignetting", recipe.photo.max_vignetting);
   visit("photo/grain", recipe.photo.grain);
   visit("photo/blur_px", recipe.photo.blur_px);
+  visit("photo/ntsc", recipe.photo.ntsc);
+  visit("occluders/trees", recipe.occluders.trees);
+  visit("occluders/lamps", recipe.occluders.lamps);
+  visit("occluders/signs", recipe.occluders.signs);
+  visit("occluders/cars", recipe.occluders.cars);
+  visit("occluders/people", recipe.occluders.people);
 }
 
 Json::json_pointer Pointer(const std::string& path) { return Json::json_pointer("/" + path); }
@@ -65,17 +74,39 @@ std::vector<SynthPreset> ListSynthPresets() {
   return {
       {"wiesner", "white tiled modernist block, 88 faces, feet, 23 slides as the thesis took them"},
       {"pure", "the same without any nuisance: exact tags, overcast, no grain, no slide errors"},
+      {"ntsc", "wiesner digitised through NTSC video: 640x480, pixels that are not square"},
+      {"hard", "wiesner with everything at once: sun, trees, cars, mounts, dust, k1, exposure"},
   };
 }
 
 SynthRecipe PresetRecipe(const std::string& preset) {
   SynthRecipe recipe;
   recipe.preset = preset;
+  recipe.occluders = {.trees = 4, .lamps = 6, .signs = 2, .cars = 0.3, .people = 1.5};
   if (preset == "wiesner") return recipe;
+  if (preset == "ntsc") {
+    recipe.photo.ntsc = true;
+    return recipe;
+  }
+  if (preset == "hard") {
+    recipe.slide.mount_margin = 0.006;
+    recipe.slide.specks = 25;
+    recipe.slide.scratches = 2;
+    recipe.lens.k1 = -0.03;
+    recipe.photo.sunny_share = 0.7;
+    recipe.photo.sigma_exposure_stops = 0.4;
+    recipe.photo.sigma_white_balance = 0.06;
+    recipe.photo.max_vignetting = 1;
+    recipe.photo.grain = 0.022;
+    recipe.photo.blur_px = 0.9;
+    recipe.occluders = {.trees = 9, .lamps = 12, .signs = 5, .cars = 2, .people = 4};
+    return recipe;
+  }
   if (preset == "pure") {
-    recipe.slide = {0, 0, 0, 0};
-    recipe.notebook.sigma_roll_deg = 0;
-    recipe.photo = {0, 0, 0, 0, 0, 0};
+    recipe.slide = {0, 0, 0, 0, 0, 0, 0};
+    recipe.notebook = {0, 0, 0, 0, 0};
+    recipe.photo = {0, 0, 0, 0, 0, 0, false};
+    recipe.occluders = {};
     return recipe;
   }
   std::string names;

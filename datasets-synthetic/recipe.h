@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
+#include "datasets-synthetic/occluders.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -34,6 +36,10 @@ struct SynthRecipe {
     double sigma_turn_deg = 0.7;
     double sigma_scale = 0.01;
     double sigma_anisotropy = 0.003;
+    // How far the mount's opening reaches beyond the frame, of the width; 0: no mount is seen.
+    double mount_margin = 0;
+    double specks = 4;  // of dust, mean for a slide
+    double scratches = 0.3;
   } slide;
 
   // The lens, the same for all photographs.
@@ -48,7 +54,12 @@ struct SynthRecipe {
     double max_vignetting = 0.8;
     double grain = 0.012;
     double blur_px = 0.6;
+    // Digitised as an NTSC frame, 640 x 480 whatever the size of the scan.
+    bool ntsc = false;
   } photo;
+
+  // What stands in the way and is not in the model.
+  OccluderCounts occluders;
 
   void Check() const;  // throws Error naming the first field out of range
 };

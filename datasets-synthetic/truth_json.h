@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "datasets-synthetic/camera_errors.h"
+#include "datasets-synthetic/photograph_plan.h"
+#include "scene/polygon_model.h"
+
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// How far the hand tag throws the model's points off, in the picture as written.
+VertexError MeasureTagError(const PolygonModel& model, const PhotographPlan& plan);
+
+// What is added to the occluders' codes in masks: models of 250 faces and more need them elsewhere.
+int OccluderCodeOffset(const PolygonModel& model);
+
+// truth.json, laid out as in the brick scene.
+std::string FormatTruth(const SynthRecipe& recipe,
+                        const PolygonModel& model,
+                        const std::vector<PhotographPlan>& plans,
+                        const std::vector<PlannedView>& novel_views);
+
+}  // namespace groundglass
