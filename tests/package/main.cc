@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "scene/view_tag.h"
+
 #include <cmath>
 #include <cstdio>
-
-#include "scene/view_tag.h"
 
 // The camera of Thorman's s5.view (1988, Figure 2) stands where the notebook says.
 int main() {
