@@ -40,6 +40,7 @@ void EvaluateCameras(const fs::path& found,
   for (const NamedCamera& camera : ReadFoundCameras(found, truth)) {
     camera_of_name[camera.name] = camera.camera;
   }
+  if (camera_of_name.empty()) return;
   std::map<std::string, Registration> registration_of_name;
   if (fs::exists(found / "registration.json")) {
     for (const Registration& registration : ReadRegistrations(found / "registration.json")) {

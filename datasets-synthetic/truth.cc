@@ -87,6 +87,8 @@ std::vector<NamedCamera> ReadFoundCameras(const fs::path& folder, const Truth& t
   for (const fs::path& candidate : {folder, folder / "cameras"}) {
     if (fs::exists(candidate / "images.txt")) return ReadColmapCamerasByStem(candidate);
   }
+  // What `invrender` writes has a model to judge, and no cameras of its own.
+  if (fs::exists(folder / "model.glb")) return {};
   throw Error(folder, "no cameras here; expected views/*.view, *.view, or a COLMAP text model");
 }
 
