@@ -18,12 +18,25 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 
 namespace groundglass {
 namespace {
+
+// How faces are coloured, and what kFaceFragmentShader calls it.
+enum Colouring { kTexturedFaces, kTexturedAlongSight, kPlainFaces, kShadedFaces, kNumberedFaces };
+constexpr std::array<const char*, 5> kColourings = {
+    "TEXTURED", "TEXTURED_ALONG_SIGHT", "PLAIN", "SHADED", "NUMBERED"};
+
+Colouring ChooseColouring(const RenderOptions& options, const RenderBatch& batch) {
+  if (options.mode == DrawMode::kShaded) return kShadedFaces;
+  if (options.mode == DrawMode::kLabels) return kNumberedFaces;
+  if (batch.page < 0) return kPlainFaces;
+  return options.anisotropy > 1 ? kTexturedAlongSight : kTexturedFaces;
+}
 
 void CheckRange(double value, double least, double most, const char* field) {
   if (value >= least && value <= most) return;
@@ -91,7 +104,7 @@ struct Renderer::Impl {
   std::vector<std::string> warnings;
   int max_frame_px = 0;
 
-  GlProgram face_program;
+  std::array<GlProgram, kColourings.size()> face_programs;  // by Colouring
   GlProgram label_program;
   GlProgram sky_program;
   GlProgram resolve_program;
@@ -113,7 +126,12 @@ struct Renderer::Impl {
       : model(textured.model), mesh(MakeRenderMesh(textured)) {
     context->MakeCurrent();
     gl = FindGlFunctions(*context);
-    face_program = GlProgram(gl, kFaceVertexShader, kFaceFragmentShader);
+    for (size_t i = 0; i < kColourings.size(); ++i) {
+      face_programs[i] = GlProgram(
+          gl,
+          kFaceVertexShader,
+          std::string("#version 330 core\n#define ") + kColourings[i] + "\n" + kFaceFragmentShader);
+    }
     label_program = GlProgram(gl, kFaceVertexShader, kLabelFragmentShader);
     sky_program = GlProgram(gl, kFrameVertexShader, kSkyFragmentShader);
     resolve_program = GlProgram(gl, kFrameVertexShader, kResolveFragmentShader);
@@ -128,6 +146,7 @@ struct Renderer::Impl {
     frame_array = GlVertexArray(gl);
     grid = GlTexture(gl);
     gl.FrontFace(GL_CW);  // see ClipFromCam
+    gl.DepthFunc(GL_LEQUAL);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl.Enable(GL_FRAMEBUFFER_SRGB);
   }
@@ -207,14 +226,12 @@ struct Renderer::Impl {
                 std::to_string(max_frame_px) + " px each way can, supersampling included");
   }
 
-  void SetClip(const GlProgram& program, const Camera& pinhole) {
+  Eigen::Matrix4f ClipFromLocal(const Camera& pinhole) const {
     const DepthRange range = FindDepthRange(mesh, pinhole);
     Eigen::Matrix4d cam_from_local = Eigen::Matrix4d::Identity();
     cam_from_local.topLeftCorner<3, 3>() = pinhole.cam_from_world.rotation;
     cam_from_local.topRightCorner<3, 1>() = pinhole.cam_from_world * mesh.origin_in_world;
-    const Eigen::Matrix4f clip_from_local =
-        (ClipFromCam(pinhole, range.near_depth, range.far_depth) * cam_from_local).cast<float>();
-    gl.UniformMatrix4fv(program.Uniform("clip_from_local"), 1, GL_FALSE, clip_from_local.data());
+    return (ClipFromCam(pinhole, range.near_depth, range.far_depth) * cam_from_local).cast<float>();
   }
 
   void BindTarget(const RenderTarget& target) {
@@ -228,29 +245,30 @@ struct Renderer::Impl {
     gl.UniformMatrix3fv(
         sky_program.Uniform("world_from_clip"), 1, GL_FALSE, world_from_clip.data());
     gl.BindVertexArray(frame_array.Name());
+    // At the far end of the depth range: only where no face is.
+    gl.Enable(GL_DEPTH_TEST);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    gl.Disable(GL_DEPTH_TEST);
   }
 
   void DrawFaces(const Camera& pinhole, const RenderOptions& options) {
-    face_program.Use();
-    SetClip(face_program, pinhole);
     const double bearing = RadiansFromDegrees(options.sun_bearing_deg);
     const double height = RadiansFromDegrees(options.sun_height_deg);
-    gl.Uniform3f(face_program.Uniform("sun_direction"),
-                 static_cast<float>(std::sin(bearing) * std::cos(height)),
-                 static_cast<float>(std::cos(bearing) * std::cos(height)),
-                 static_cast<float>(std::sin(height)));
-    gl.Uniform1i(face_program.Uniform("page"), 0);
-    gl.Uniform1i(face_program.Uniform("max_taps"), options.anisotropy);
+    const Eigen::Matrix4f clip_from_local = ClipFromLocal(pinhole);
     gl.BindVertexArray(vertex_array.Name());
     gl.Enable(GL_DEPTH_TEST);
     gl.ActiveTexture(GL_TEXTURE0);
     for (const RenderBatch& batch : mesh.batches) {
-      int mode = 3;
-      if (options.mode == DrawMode::kTextured) mode = batch.page >= 0 ? 0 : 1;
-      if (options.mode == DrawMode::kShaded) mode = 2;
-      gl.Uniform1i(face_program.Uniform("mode"), mode);
-      if (mode == 0) gl.BindTexture(GL_TEXTURE_2D, pages[batch.page].Name());
+      const GlProgram& program = face_programs[ChooseColouring(options, batch)];
+      program.Use();
+      gl.UniformMatrix4fv(program.Uniform("clip_from_local"), 1, GL_FALSE, clip_from_local.data());
+      gl.Uniform1i(program.Uniform("page"), 0);
+      gl.Uniform1i(program.Uniform("max_taps"), options.anisotropy);
+      gl.Uniform3f(program.Uniform("sun_direction"),
+                   static_cast<float>(std::sin(bearing) * std::cos(height)),
+                   static_cast<float>(std::cos(bearing) * std::cos(height)),
+                   static_cast<float>(std::sin(height)));
+      if (batch.page >= 0) gl.BindTexture(GL_TEXTURE_2D, pages[batch.page].Name());
       gl.DrawArrays(GL_TRIANGLES, batch.first_vertex, batch.num_vertices);
     }
     gl.Disable(GL_DEPTH_TEST);
@@ -274,8 +292,8 @@ struct Renderer::Impl {
     const float clear_depth = 1;
     gl.ClearBufferfv(GL_COLOR, 0, clear_colour);
     gl.ClearBufferfv(GL_DEPTH, 0, &clear_depth);
-    if (options.background == Background::kSky) DrawSky(pinhole);
     if (options.mode != DrawMode::kWireframe) DrawFaces(pinhole, options);
+    if (options.background == Background::kSky) DrawSky(pinhole);
     if (multi) {
       gl.BindFramebuffer(GL_READ_FRAMEBUFFER, multisampled.framebuffer.Name());
       gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn.framebuffer.Name());
@@ -401,7 +419,9 @@ Image16 Renderer::RenderLabels(const Camera& camera) {
   gl.ClearBufferuiv(GL_COLOR, 0, no_face);
   gl.ClearBufferfv(GL_DEPTH, 0, &clear_depth);
   impl.label_program.Use();
-  impl.SetClip(impl.label_program, pinhole);
+  const Eigen::Matrix4f clip_from_local = impl.ClipFromLocal(pinhole);
+  gl.UniformMatrix4fv(
+      impl.label_program.Uniform("clip_from_local"), 1, GL_FALSE, clip_from_local.data());
   gl.BindVertexArray(impl.vertex_array.Name());
   gl.Enable(GL_DEPTH_TEST);
   gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(impl.mesh.vertices.size()));

@@ -26,8 +26,10 @@ void main() {
 
 // The back of a face is plain grey in every mode: it is not part of the picture of the building,
 // and a photograph must not seem to be on it.
-constexpr char kFaceFragmentShader[] = R"(#version 330 core
-uniform int mode;  // 0 textured, 1 plain, 2 shaded, 3 coloured by number
+//
+// One program for each way of colouring, by a #define before this text: the software rasteriser
+// runs all branches of a shader for every pixel.
+constexpr char kFaceFragmentShader[] = R"(
 uniform sampler2D page;
 uniform int max_taps;
 uniform vec3 sun_direction;
@@ -36,28 +38,21 @@ flat in vec3 normal;
 flat in uint face;
 layout(location = 0) out vec4 colour;
 
-const vec3 kBack = vec3(0.30);
-const vec3 kPlain = vec3(0.52);
-const vec3 kPlaster = vec3(0.80, 0.77, 0.72);
-
 // A soft sun under a bright sky: a wall that the sun misses still shows its form.
 float Light(vec3 n) {
   float sun = max(dot(n, sun_direction), 0.0);
   return 0.42 + 0.12 * n.z + 0.16 * dot(n.xy, sun_direction.xy) + 0.38 * sun;
 }
 
-// Neighbouring numbers get hues far apart: steps of the golden ratio.
-vec3 NumberColour(uint number) {
-  float hue = fract(float(number) * 0.61803398875 + 0.1) * 6.0;
-  vec3 pure = clamp(abs(mod(hue + vec3(0.0, 4.0, 2.0), 6.0) - 3.0) - 1.0, 0.0, 1.0);
-  float tone = 0.55 + 0.15 * float(number % 3u);
-  return tone * mix(vec3(1.0), pure, 0.55);
-}
-
+#if defined(TEXTURED)
+vec3 FrontColour() { return texture(page, on_page).rgb; }
+#elif defined(TEXTURED_ALONG_SIGHT)
 // Trilinear taps along the longer axis of the pixel's footprint, as many as it is longer than the
 // shorter. OpenGL's own anisotropic filter is not used: the software rasteriser's blurs even what
 // is seen straight on.
-vec3 PageColour(vec2 along_x, vec2 along_y) {
+vec3 FrontColour() {
+  vec2 along_x = dFdx(on_page);
+  vec2 along_y = dFdy(on_page);
   vec2 size = vec2(textureSize(page, 0));
   float texels_x = length(along_x * size);
   float texels_y = length(along_y * size);
@@ -72,22 +67,21 @@ vec3 PageColour(vec2 along_x, vec2 along_y) {
   }
   return sum / float(taps);
 }
-
-void main() {
-  vec2 along_x = dFdx(on_page);
-  vec2 along_y = dFdy(on_page);
-  if (!gl_FrontFacing) {
-    colour = vec4(kBack, 1.0);
-  } else if (mode == 0) {
-    colour = vec4(PageColour(along_x, along_y), 1.0);
-  } else if (mode == 1) {
-    colour = vec4(kPlain * (0.5 + 0.5 * Light(normal)), 1.0);
-  } else if (mode == 2) {
-    colour = vec4(kPlaster * Light(normal), 1.0);
-  } else {
-    colour = vec4(NumberColour(face), 1.0);
-  }
+#elif defined(PLAIN)
+vec3 FrontColour() { return vec3(0.52 * (0.5 + 0.5 * Light(normal))); }
+#elif defined(SHADED)
+vec3 FrontColour() { return vec3(0.80, 0.77, 0.72) * Light(normal); }
+#elif defined(NUMBERED)
+// Neighbouring numbers get hues far apart: steps of the golden ratio.
+vec3 FrontColour() {
+  float hue = fract(float(face) * 0.61803398875 + 0.1) * 6.0;
+  vec3 pure = clamp(abs(mod(hue + vec3(0.0, 4.0, 2.0), 6.0) - 3.0) - 1.0, 0.0, 1.0);
+  float tone = 0.55 + 0.15 * float(face % 3u);
+  return tone * mix(vec3(1.0), pure, 0.55);
 }
+#endif
+
+void main() { colour = vec4(gl_FrontFacing ? FrontColour() : vec3(0.30), 1.0); }
 )";
 
 constexpr char kLabelFragmentShader[] = R"(#version 330 core
@@ -117,7 +111,7 @@ const vec3 kHorizon = vec3(0.78, 0.85, 0.92);
 const vec3 kGround = vec3(0.42, 0.40, 0.37);
 void main() {
   float up = normalize(direction).z;
-  vec3 sky = mix(kHorizon, kZenith, pow(clamp(up, 0.0, 1.0), 0.6));
+  vec3 sky = mix(kHorizon, kZenith, sqrt(clamp(up, 0.0, 1.0)));
   vec3 below = mix(kHorizon, kGround, smoothstep(0.0, 0.06, -up));
   colour = vec4(up > 0.0 ? sky : below, 1.0);
 }
