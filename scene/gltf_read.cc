@@ -4,10 +4,9 @@
 #include "scene/frames.h"
 #include "scene/image_io.h"
 #include "scene/mesh_io.h"
+#include "scene/own_tiny_gltf.h"
 #include "scene/text.h"
 #include "scene/view_io.h"
-
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,8 @@
 // Part of Groundglass.
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/own_tiny_gltf.h"
 #include "scene/textured_model_io.h"
-
-#include <tiny_gltf.h>
 
 #include <cstring>
 #include <map>
@@ -163,7 +162,8 @@ class GlbWriter {
       std::map<int, uint32_t> vertex_of_point;
       for (size_t k = 0; k < face.points.size(); ++k) {
         const Eigen::Vector3d& point = model.points_in_world[static_cast<size_t>(face.points[k])];
-        const Eigen::Vector3f position = (scale * GltfFromWorld(point) - center_m_).cast<float>();
+        const Eigen::Vector3f position =
+            (scale * GltfFromWorld(point) - center_m_).cast<float>().array() + 0.0f;  // no -0
         positions.insert(positions.end(), {position.x(), position.y(), position.z()});
         normals.insert(normals.end(), {normal.x(), normal.y(), normal.z()});
         vertex_of_point[face.points[k]] = first + static_cast<uint32_t>(k);

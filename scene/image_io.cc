@@ -116,6 +116,8 @@ class OpenImage {
     OIIO::ImageSpec config;
     // Colours as they are stored, not multiplied by the alpha that is going to be dropped.
     config["oiio:UnassociatedAlpha"] = 1;
+    // OpenImageIO 2.4 forgets the proxy argument when there is a configuration.
+    if (proxy != nullptr) config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     input_ = OIIO::ImageInput::open(file.string(), &config, proxy);
     if (!input_) {
       throw Error(file, "cannot read this as an image: " + OneLine(OIIO::geterror()));

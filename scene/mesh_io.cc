@@ -3,6 +3,7 @@
 #include "scene/mesh_io.h"
 
 #include "scene/error.h"
+#include "scene/text.h"
 
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
 
 namespace groundglass {
@@ -47,11 +49,32 @@ void AppendNode(const aiScene& scene,
   }
 }
 
+// Assimp believes a PLY header's counts, however large; each element takes a byte at least.
+void CheckPlyCounts(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const uintmax_t size = std::filesystem::file_size(file);
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    const std::vector<TextLine> lines = SplitLines(line, '\0');
+    if (lines.empty() || lines.front().tokens.empty()) continue;
+    const std::vector<TextToken>& words = lines.front().tokens;
+    if (words.front().text == "end_header") break;
+    if (words.front().text != "element" || words.size() < 3) continue;
+    const std::optional<long long> count = ParseInteger(words[2].text);
+    if (!count || *count < 0 || static_cast<uintmax_t>(*count) > size) {
+      throw Error(
+          file, number, "the file is too short for " + std::string(words[2].text) + " elements");
+    }
+  }
+}
+
 }  // namespace
 
 PolygonModel ReadPlainMesh(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) throw Error(file, "no such model file");
+  if (LowerCase(file.extension().string()) == ".ply") CheckPlyCounts(file);
   Assimp::Importer importer;
   const aiScene* scene = nullptr;
   try {

@@ -2,13 +2,6 @@
 // Part of Groundglass.
 #include "scene/colmap_io.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "scene/frames.h"
 #include "scene/image_io.h"
 #include "scene/osu_io.h"
@@ -17,6 +10,13 @@
 #include "scene/visibility.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <fstream>
 
 namespace groundglass {
 namespace {
@@ -71,8 +71,8 @@ TEST(ColmapModel, ColmapItselfReadsIt) {
   const TemporaryFolder folder;
   WriteColmapModel(folder / "cameras", SampleCameras());
   const std::string command = "QT_QPA_PLATFORM=offscreen colmap model_analyzer --path '" +
-                              (folder / "cameras").string() + "' > '" +
-                              (folder / "log").string() + "' 2>&1";
+                              (folder / "cameras").string() + "' > '" + (folder / "log").string() +
+                              "' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
   const std::string log = ReadTextFile(folder / "log");
   EXPECT_THAT(log, HasSubstr("Cameras: 3"));
@@ -81,10 +81,11 @@ TEST(ColmapModel, ColmapItselfReadsIt) {
 
 TEST(ColmapModel, ReadsEveryCameraModelThatFits) {
   const TemporaryFolder folder;
-  folder.Write("cameras.txt",
-               "# comment\n1 SIMPLE_PINHOLE 640 480 500 320 240\n2 PINHOLE 640 480 500 510 320 240\n"
-               "3 SIMPLE_RADIAL 640 480 500 320 240 -0.1\n4 RADIAL 640 480 500 320 240 -0.1 0.01\n"
-               "5 OPENCV 640 480 500 510 320 240 -0.1 0.01 0 0\n");
+  folder.Write(
+      "cameras.txt",
+      "# comment\n1 SIMPLE_PINHOLE 640 480 500 320 240\n2 PINHOLE 640 480 500 510 320 240\n"
+      "3 SIMPLE_RADIAL 640 480 500 320 240 -0.1\n4 RADIAL 640 480 500 320 240 -0.1 0.01\n"
+      "5 OPENCV 640 480 500 510 320 240 -0.1 0.01 0 0\n");
   std::string images = "# comment\n";
   for (int i = 1; i <= 5; ++i) {
     const std::string id = std::to_string(i);
@@ -150,7 +151,7 @@ TEST(BrickTruth, CamerasAgreeWithTheMatricesFromSiteToScan) {
     }
     ASSERT_NE(view, nullptr) << named.name;
     Eigen::Matrix<double, 3, 4> image_from_site;
-    const nlohmann::json& rows = view->at("P_scan");
+    const nlohmann::json& rows = view->at("P34_LHworld_to_scan_px");
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) {
         image_from_site(row, column) = rows.at(row).at(column).get<double>();
@@ -176,7 +177,8 @@ TEST(BrickTruth, ModelSeenThroughTheTrueCamerasCoversTheTrueMasks) {
     const Image16 labels = visibility.FaceLabels(named.camera);
     ASSERT_EQ(labels.values.size(), truth.values.size());
     size_t num_equal = 0;
-    for (size_t i = 0; i < labels.values.size(); ++i) num_equal += labels.values[i] == truth.values[i];
+    for (size_t i = 0; i < labels.values.size(); ++i)
+      num_equal += labels.values[i] == truth.values[i];
     // Pixels on the border of two faces may fall to either.
     EXPECT_GT(static_cast<double>(num_equal), 0.998 * static_cast<double>(truth.values.size()))
         << named.name;

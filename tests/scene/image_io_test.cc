@@ -2,15 +2,15 @@
 // Part of Groundglass.
 #include "scene/image_io.h"
 
+#include "scene/view_io.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
+
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "scene/view_io.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/thrown_message.h"
 
 namespace groundglass {
 namespace {

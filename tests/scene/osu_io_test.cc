@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadModel{"3 1\n0 0 0\n1 1 1\n2 2 2\n3 1 2 3",
                  "model.osu:5: face 1 has no area: its points lie on a line, or its parts cancel "
                  "out"},
-        BadModel{"4 1\n0 0 0\n4 0 0\n0 5 0\n4 2 0\n4 1 2 3 4",
+        BadModel{"4 1\n0 0 0\n4 0 0\n0 5 0\n5 3 0\n4 1 2 3 4",
                  "model.osu:6: face 1 crosses or touches itself: its sides 2-3 and 4-1 meet"},
         BadModel{"3 1\n0 0 0\n1 0 0\n0 1 0\n4 1 2 3", "model.osu:5: face 1 cannot have 4 points"},
         BadModel{"3 1\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n7",
