@@ -2,8 +2,10 @@
 // Part of Groundglass.
 #include "cli/commands.h"
 #include "datasets-synthetic/evaluate.h"
+#include "datasets-synthetic/trials.h"
 #include "scene/error.h"
 #include "scene/model_io.h"
+#include "scene/scene_folder.h"
 #include "viewer/renderer.h"
 
 #include <cstdio>
@@ -19,6 +21,9 @@ struct EvaluateArguments {
   std::string found;
   std::string truth;
   std::string model;
+  // Monte-Carlo trials of registration; 0: none. `found` is then the scene itself.
+  int num_trials = 0;
+  TrialOptions trials;
 };
 
 // The model beside the truth folder, as in every scene.
@@ -30,6 +35,42 @@ fs::path FindModel(const fs::path& truth_folder) {
     if (fs::exists(file)) return file;
   }
   throw Error(scene_folder, "no model beside the truth folder; name it with --model");
+}
+
+int EvaluateFound(const EvaluateArguments& arguments) {
+  const Truth truth = ReadTruth(arguments.truth);
+  ModelOptions model_options;
+  model_options.unit = arguments.common.unit;
+  const fs::path model_file =
+      arguments.model.empty() ? FindModel(arguments.truth) : fs::path(arguments.model);
+  const PolygonModel model = ReadModel(model_file, model_options).model;
+  EvaluateOptions options;
+  options.render = [](const TexturedModel& textured, const Camera& camera) {
+    RenderOptions render_options;
+    render_options.supersampling = 2;
+    return Render(textured, camera, render_options);
+  };
+  const Evaluation evaluation = Evaluate(arguments.found, truth, model, options);
+  std::fputs(arguments.common.json ? FormatEvaluationJson(evaluation, model).c_str()
+                                   : FormatEvaluationTable(evaluation, model).c_str(),
+             stdout);
+  return kExitDone;
+}
+
+int RunTrialsOfScene(const EvaluateArguments& arguments) {
+  SceneOptions scene_options;
+  if (!arguments.model.empty()) scene_options.model_file = arguments.model;
+  scene_options.model.unit = arguments.common.unit;
+  const Scene scene = ReadScene(arguments.found, scene_options);
+  TrialOptions options = arguments.trials;
+  options.num_trials = arguments.num_trials;
+  options.seed = arguments.common.seed;
+  const std::vector<Trial> trials = RunTrials(
+      scene, ReadTruth(arguments.truth), options, MakeProgress(arguments.common, "notebooks"));
+  std::fputs(arguments.common.json ? FormatTrialsJson(trials, options).c_str()
+                                   : FormatTrialsTable(trials, options).c_str(),
+             stdout);
+  return kExitDone;
 }
 
 }  // namespace
@@ -45,26 +86,27 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
   command->add_option("--truth", arguments->truth, "the scene's truth folder")->required();
   command->add_option("--model", arguments->model, "the polygon model, if not beside the truth");
   AddCommonOptions(command, arguments->common);
+  command->add_option("--trials",
+                      arguments->num_trials,
+                      "register FOUND, a scene folder, from this many notebooks drawn by chance");
+  command
+      ->add_option("--sigma-position",
+                   arguments->trials.sigma_position,
+                   "of the trials' notebooks, across, model's unit")
+      ->capture_default_str();
+  command
+      ->add_option("--sigma-height",
+                   arguments->trials.sigma_height,
+                   "of the trials' notebooks, up, model's unit")
+      ->capture_default_str();
+  command
+      ->add_option("--sigma-lookat",
+                   arguments->trials.sigma_lookat,
+                   "of the trials' notebooks, look-at point, model's unit")
+      ->capture_default_str();
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] {
-      const Truth truth = ReadTruth(arguments->truth);
-      ModelOptions model_options;
-      model_options.unit = arguments->common.unit;
-      const PolygonModel model = ReadModel(arguments->model.empty() ? FindModel(arguments->truth)
-                                                                    : fs::path(arguments->model),
-                                           model_options)
-                                     .model;
-      EvaluateOptions options;
-      options.render = [](const TexturedModel& textured, const Camera& camera) {
-        RenderOptions render_options;
-        render_options.supersampling = 2;
-        return Render(textured, camera, render_options);
-      };
-      const Evaluation evaluation = Evaluate(arguments->found, truth, model, options);
-      std::fputs(arguments->common.json ? FormatEvaluationJson(evaluation, model).c_str()
-                                        : FormatEvaluationTable(evaluation, model).c_str(),
-                 stdout);
-      return kExitDone;
+      return arguments->num_trials > 0 ? RunTrialsOfScene(*arguments) : EvaluateFound(*arguments);
     });
   });
 }

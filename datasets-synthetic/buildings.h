@@ -30,6 +30,24 @@ struct Subject {
 // with the thesis' s5 among them. Feet; about 100 faces.
 Subject MakeWiesner(uint64_t seed);
 
+// A brick hall with a cross wing under slate gables, stone base, string course and quoins, a porch
+// and a chimney; about 70 faces, windows among them.
+Subject MakeBrickHall(uint64_t seed);
+
+// Six buildings of a city block, their windows in the model: about `num_faces` faces in all (300 to
+// 30,000).
+Subject MakeCityBlock(uint64_t seed, int num_faces);
+
+// Views from around a building, all with the same view angle: `count` on an ellipse that is
+// `distance` away from the bounds on the ground, each looking at the near side.
+std::vector<PlannedView> MakeRingOfViews(const Box& bounds_in_world,
+                                         int count,
+                                         double distance,
+                                         double start_deg,
+                                         double eye_height,
+                                         const std::string& prefix,
+                                         int first_number);
+
 // The ground, roads and distant blocks around a building that stands within `radius` feet of
 // `center_in_world`; called after the building's own faces.
 void AddSurroundings(WorldBuilder& builder,

@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 template <typename Recipe, typename Visit>
 void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("building", recipe.building);
+  visit("faces", recipe.num_faces);
   visit("width", recipe.width_px);
   visit("height", recipe.height_px);
   visit("views", recipe.num_views);
@@ -65,6 +66,12 @@ void SynthRecipe::Check() const {
       }
     }
   });
+  if (building != "wiesner" && building != "brick" && building != "cityblock") {
+    throw Error("recipe field building must be wiesner, brick or cityblock, not " + building);
+  }
+  if (num_faces < 300 || num_faces > 30000) {
+    throw Error("recipe field faces must be 300 to 30000");
+  }
   if (num_views < 0) throw Error("recipe field views must not be negative");
   if (photo.sunny_share > 1) throw Error("recipe field photo/sunny_share must be at most 1");
   if (photo.max_vignetting > 1) throw Error("recipe field photo/max_vignetting must be at most 1");
@@ -75,6 +82,8 @@ std::vector<SynthPreset> ListSynthPresets() {
       {"wiesner", "white tiled modernist block, 88 faces, feet, 23 slides as the thesis took them"},
       {"pure", "the same without any nuisance: exact tags, overcast, no grain, no slide errors"},
       {"ntsc", "wiesner digitised through NTSC video: 640x480, pixels that are not square"},
+      {"brick", "gabled brick hall with stone trim and slate roofs, 16 slides"},
+      {"cityblock", "six buildings with every window in the model, 1,000 faces, 22 slides"},
       {"hard", "wiesner with everything at once: sun, trees, cars, mounts, dust, k1, exposure"},
   };
 }
@@ -84,6 +93,10 @@ SynthRecipe PresetRecipe(const std::string& preset) {
   recipe.preset = preset;
   recipe.occluders = {.trees = 4, .lamps = 6, .signs = 2, .cars = 0.3, .people = 1.5};
   if (preset == "wiesner") return recipe;
+  if (preset == "brick" || preset == "cityblock") {
+    recipe.building = preset;
+    return recipe;
+  }
   if (preset == "ntsc") {
     recipe.photo.ntsc = true;
     return recipe;

@@ -13,7 +13,8 @@ namespace groundglass {
 // Everything that a synthetic scene is made from. The same recipe and build give the same bytes.
 struct SynthRecipe {
   std::string preset = "wiesner";
-  std::string building = "wiesner";
+  std::string building = "wiesner";  // or brick, cityblock
+  int num_faces = 1000;              // of a city block, about
   int width_px = 1500;
   int height_px = 1000;
   // How many of the building's planned views are taken; 0 for all.

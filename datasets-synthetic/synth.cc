@@ -25,6 +25,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+Subject MakeSubject(const SynthRecipe& recipe) {
+  if (recipe.building == "brick") return MakeBrickHall(recipe.seed);
+  if (recipe.building == "cityblock") return MakeCityBlock(recipe.seed, recipe.num_faces);
+  return MakeWiesner(recipe.seed);
+}
+
 std::string ViewComment(const std::string& name, const std::string& spot) {
   std::string comment = "File: " + name + ".view";
   if (!spot.empty()) comment += "\n" + spot;
@@ -127,6 +133,7 @@ OccluderSite SiteOf(const PolygonModel& model, const std::vector<PhotographPlan>
   OccluderSite site;
   site.low = bounds.min.head<2>();
   site.high = bounds.max.head<2>();
+  site.radius = (site.high - site.low).maxCoeff() / 2 + 75;
   for (const PhotographPlan& plan : plans) {
     site.camera_positions.push_back(plan.camera.PositionInWorld());
   }
@@ -158,7 +165,7 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
                                  const Progress& progress) {
   recipe.Check();
   CheckFolderIsFree(folder);
-  Subject subject = MakeWiesner(recipe.seed);
+  Subject subject = MakeSubject(recipe);
   const PolygonModel model = subject.world.Model();
   if (recipe.num_views > 0 && recipe.num_views < static_cast<int>(subject.views.size())) {
     subject.views.resize(recipe.num_views);

@@ -13,8 +13,8 @@
 namespace groundglass {
 namespace {
 
-// Corners closer than this (feet) are one point.
-constexpr double kSamePoint = 1e-6;
+// Corners that round to the same multiple of this (feet) are one point.
+constexpr double kSamePoint = 1e-4;
 
 }  // namespace
 
@@ -39,14 +39,14 @@ PolygonModel SyntheticWorld::Model() const {
 }
 
 int WorldBuilder::PointIndex(const Eigen::Vector3d& point_in_world) {
-  std::vector<Eigen::Vector3d>& points = world_.geometry.points_in_world;
-  // A building's corners meet those of faces added shortly before; the rest need not be shared.
-  const size_t first = points.size() > 400 ? points.size() - 400 : 0;
-  for (size_t i = first; i < points.size(); ++i) {
-    if ((points[i] - point_in_world).cwiseAbs().maxCoeff() < kSamePoint) return static_cast<int>(i);
+  std::array<int64_t, 3> place;
+  for (int axis = 0; axis < 3; ++axis) {
+    place[axis] = std::llround(point_in_world[axis] / kSamePoint);
   }
-  points.push_back(point_in_world);
-  return static_cast<int>(points.size()) - 1;
+  std::vector<Eigen::Vector3d>& points = world_.geometry.points_in_world;
+  const auto [entry, is_new] = point_of_place_.emplace(place, static_cast<int>(points.size()));
+  if (is_new) points.push_back(point_in_world);
+  return entry->second;
 }
 
 int WorldBuilder::AddPolygon(const std::vector<Eigen::Vector3d>& corners_in_world,

@@ -5,6 +5,9 @@
 #include "datasets-synthetic/material.h"
 #include "scene/polygon_model.h"
 
+#include <array>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,6 +27,7 @@ struct SyntheticWorld {
 // Adds polygons to a world, each with a texture frame that fits it.
 class WorldBuilder {
  public:
+  // Faces added by this builder share their points with one another.
   WorldBuilder(SyntheticWorld& world, uint64_t seed) : world_(world), seed_(seed) {}
 
   // Adds a polygon given in `world`, counterclockwise seen from its front; returns its face. On
@@ -82,6 +86,7 @@ class WorldBuilder {
 
   SyntheticWorld& world_;
   uint64_t seed_ = 0;
+  std::map<std::array<int64_t, 3>, int> point_of_place_;  // by position to a tenth of a thousandth
 };
 
 }  // namespace groundglass

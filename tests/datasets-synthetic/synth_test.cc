@@ -156,7 +156,7 @@ TEST(Recipe, WrongFieldsAreErrorsThatNameThem) {
               testing::ThrowsMessage<Error>(
                   "r.json: recipe field photo/grain is not of the kind expected"));
   EXPECT_THAT([] { PresetRecipe("louvre"); },
-              testing::ThrowsMessage<Error>(testing::HasSubstr("there are wiesner, pure, ntsc, hard")));
+              testing::ThrowsMessage<Error>(testing::HasSubstr("there are wiesner, pure")));
   recipe.slide.sigma_shift = -1;
   EXPECT_THAT([&] { recipe.Check(); },
               testing::ThrowsMessage<Error>("recipe field slide/sigma_shift must not be negative"));
