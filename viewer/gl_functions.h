@@ -21,6 +21,7 @@ namespace groundglass {
   X(BindTexture, PFNGLBINDTEXTUREPROC)                                       \
   X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)                               \
   X(BlitFramebuffer, PFNGLBLITFRAMEBUFFERPROC)                               \
+  X(BlendFunc, PFNGLBLENDFUNCPROC)                                           \
   X(BufferData, PFNGLBUFFERDATAPROC)                                         \
   X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC)                 \
   X(ClearBufferfv, PFNGLCLEARBUFFERFVPROC)                                   \
@@ -35,7 +36,6 @@ namespace groundglass {
   X(DeleteShader, PFNGLDELETESHADERPROC)                                     \
   X(DeleteTextures, PFNGLDELETETEXTURESPROC)                                 \
   X(DeleteVertexArrays, PFNGLDELETEVERTEXARRAYSPROC)                         \
-  X(DepthFunc, PFNGLDEPTHFUNCPROC)                                           \
   X(Disable, PFNGLDISABLEPROC)                                               \
   X(DrawArrays, PFNGLDRAWARRAYSPROC)                                         \
   X(Enable, PFNGLENABLEPROC)                                                 \

@@ -146,7 +146,6 @@ struct Renderer::Impl {
     frame_array = GlVertexArray(gl);
     grid = GlTexture(gl);
     gl.FrontFace(GL_CW);  // see ClipFromCam
-    gl.DepthFunc(GL_LEQUAL);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl.Enable(GL_FRAMEBUFFER_SRGB);
   }
@@ -245,10 +244,12 @@ struct Renderer::Impl {
     gl.UniformMatrix3fv(
         sky_program.Uniform("world_from_clip"), 1, GL_FALSE, world_from_clip.data());
     gl.BindVertexArray(frame_array.Name());
-    // At the far end of the depth range: only where no face is.
-    gl.Enable(GL_DEPTH_TEST);
+    // Behind what is there, by the share of each pixel that no face covers: in this way the sky
+    // needs one sample for each pixel only.
+    gl.Enable(GL_BLEND);
+    gl.BlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    gl.Disable(GL_DEPTH_TEST);
+    gl.Disable(GL_BLEND);
   }
 
   void DrawFaces(const Camera& pinhole, const RenderOptions& options) {
@@ -287,13 +288,12 @@ struct Renderer::Impl {
                 TargetKind::kColourAndDepth);
     }
     BindTarget(multi ? multisampled : drawn);
-    const float ground = options.background == Background::kTransparent ? 0.0f : 1.0f;
+    const float ground = options.background == Background::kWhite ? 1.0f : 0.0f;
     const float clear_colour[4] = {ground, ground, ground, ground};
     const float clear_depth = 1;
     gl.ClearBufferfv(GL_COLOR, 0, clear_colour);
     gl.ClearBufferfv(GL_DEPTH, 0, &clear_depth);
     if (options.mode != DrawMode::kWireframe) DrawFaces(pinhole, options);
-    if (options.background == Background::kSky) DrawSky(pinhole);
     if (multi) {
       gl.BindFramebuffer(GL_READ_FRAMEBUFFER, multisampled.framebuffer.Name());
       gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn.framebuffer.Name());
@@ -307,6 +307,10 @@ struct Renderer::Impl {
                          pinhole.height_px,
                          GL_COLOR_BUFFER_BIT,
                          GL_NEAREST);
+    }
+    if (options.background == Background::kSky) {
+      BindTarget(drawn);
+      DrawSky(pinhole);
     }
   }
 
