@@ -51,7 +51,7 @@ set(owners_stb "\\.cc$")
 set(owners_sys "\\.cc$")
 # The same for headers without a folder; any other such header is C++'s or the system's.
 set(bare_third_parties tiny_gltf.h stb_image.h stb_image_write.h)
-set(owners_tiny_gltf.h "^scene/(gltf_read|gltf_write|.*_io)\\.cc$")
+set(owners_tiny_gltf.h "^scene/(gltf_read|gltf_write|own_tiny_gltf|.*_io)\\.cc$")
 set(owners_stb_image.h "^NOBODY$")        # OpenImageIO reads and writes images
 set(owners_stb_image_write.h "^NOBODY$")
 
