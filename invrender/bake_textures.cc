@@ -195,7 +195,7 @@ BakeResult BakeTextures(const PolygonModel& model,
       const ChartChoice choice = ChooseCells(cells[i], i, colour, options);
       ChartPixels pixels =
           ComposeChart(chart, i, texels, photos, cells[i], choice, colour, options);
-      SpreadIntoWeakTexels(static_cast<int>(std::ceil(2 * options.border_margin_px)), pixels);
+      SpreadIntoWeakTexels(pixels);
       // Faces and pages' rectangles of different charts do not overlap: no lock.
       CountTexels(texels, pixels, result.coverage);
       AddSources(sorted, pixels, result.coverage);

@@ -3,6 +3,7 @@
 #include "invrender/choose.h"
 
 #include "invrender/palette.h"
+#include "invrender/seams.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,9 @@ constexpr float kOrdinaryDifference = 0.18f;
 // Squared differences beyond this many ordinary ones are all alike.
 constexpr float kLargestDissent = 9;
 // How much a colour that the wall does not have elsewhere counts against a view.
-constexpr float kPaletteWeight = 0.7f;
+constexpr float kPaletteWeight = 0.5f;
+// How much a view of lower quality loses, for each e-fold.
+constexpr float kBlurWeight = 1;
 // Sun and cast shadows: how fast photographs with uneven light lose.
 constexpr double kEvenLightPreference = 2;
 
@@ -26,18 +29,22 @@ struct CellColours {
   std::vector<size_t> seen;  // k
   std::vector<Eigen::Array3f> colours;
   std::vector<float> votes;
+  float best_quality = 0;
 
   void Set(const ChartCells& cells, int cell, int chart, const ColourModel& colour) {
     seen.clear();
     colours.clear();
     votes.clear();
+    best_quality = 0;
     const CellView* views = cells.ViewsOf(cell);
     for (size_t k = 0; k < cells.photos.size(); ++k) {
       if (views[k].quality <= 0) continue;
       const int photo = cells.photos[k];
       seen.push_back(k);
       colours.push_back(colour.Corrected(photo, chart, static_cast<int>(k), views[k]));
-      votes.push_back(static_cast<float>(1 / (0.1 + colour.photos[photo].unevenness)));
+      // A blurred view of a wall says little about what stands there.
+      votes.push_back(views[k].quality / static_cast<float>(0.1 + colour.photos[photo].unevenness));
+      best_quality = std::max(best_quality, views[k].quality);
     }
   }
   float Difference(size_t i, size_t j) const {
@@ -124,7 +131,9 @@ std::vector<float> MeasureDissent(const ChartCells& cells, int chart, const Colo
         votes += cell_colours.votes[j];
       }
       cost[cell * num_photos + cell_colours.seen[i]] =
-          sum / votes + kPaletteWeight * palette.Surprise(cell_colours.colours[i]);
+          sum / votes + kPaletteWeight * palette.Surprise(cell_colours.colours[i]) +
+          kBlurWeight * std::log(cell_colours.best_quality /
+                                 cells.ViewsOf(cell)[cell_colours.seen[i]].quality);
     }
   }
   cost = Smooth(cells, cost, 2);
@@ -176,6 +185,7 @@ ChartChoice ChooseCells(const ChartCells& cells,
       }
     }
   }
+  if (options.smooth_seams) SmoothSeams(cells, chart, colour, choice);
   return choice;
 }
 

@@ -18,7 +18,7 @@ struct ChartChoice {
 };
 
 // Picks by resolution, angle and distance to borders (CellView::quality), against photographs that
-// differ from the consensus of the others.
+// differ from the consensus of the others; then seams are smoothed.
 ChartChoice ChooseCells(const ChartCells& cells,
                         int chart,
                         const ColourModel& colour,

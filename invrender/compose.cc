@@ -125,6 +125,15 @@ class Composer {
     });
   }
 
+  // How many texels lie between a border and the first clean pixel of this photograph.
+  uint8_t ReachFromBorder(const Sighting& sighting) const {
+    constexpr double kFarthest = 32;
+    const double det = std::abs(sighting.px_from_unit.determinant());
+    const double long_side = det > 0 ? sighting.px_from_unit.norm() / det : 0;  // unit for one px
+    const double reach = 1 + (options_.border_margin_px + 1) * long_side / chart_.texel_size;
+    return static_cast<uint8_t>(std::min(kFarthest, std::ceil(reach)));
+  }
+
  private:
   // Quality 0 stands for "does not see it".
   Ingredient& Find(int k,
@@ -174,6 +183,7 @@ ChartPixels ComposeChart(const Chart& chart,
   pixels.srgb8 = Image8(width, height, 3);
   pixels.provenance = Image16(width, height, 1);
   pixels.states = Raster<uint8_t>(width, height, 1);
+  pixels.reach = Raster<uint8_t>(width, height, 1);
   const Composer composer(chart, chart_index, texels, photos, cells, choice, colour, options);
   Raster<float> footprints((width + kFootprintStep - 1) / kFootprintStep,
                            (height + kFootprintStep - 1) / kFootprintStep,
@@ -192,6 +202,9 @@ ChartPixels ComposeChart(const Chart& chart,
             ingredients.begin(), ingredients.end(), [](const Ingredient& a, const Ingredient& b) {
               return a.weight < b.weight || (a.weight == b.weight && a.k > b.k);
             });
+        if (state == TexelState::kWeak) {
+          *pixels.reach.At(x, y) = composer.ReachFromBorder(main->sighting);
+        }
         *pixels.provenance.At(x, y) = static_cast<uint16_t>(cells.photos[main->k] + 1);
         if (x % kFootprintStep == 0 && y % kFootprintStep == 0) {
           *footprints.At(x / kFootprintStep, y / kFootprintStep) = static_cast<float>(

@@ -33,6 +33,7 @@ struct ChartPixels {
   Image8 srgb8;
   Image16 provenance;  // photo + 1, or kProvenanceNone
   Raster<uint8_t> states;
+  Raster<uint8_t> reach;            // of weak texels: how many texels away good ones may be
   std::vector<FaceSource> sources;  // ordered by face, then photograph
 };
 

@@ -42,9 +42,9 @@ std::vector<Spot> GrowRing(const std::vector<std::pair<int, int>>& candidates,
   return filled;
 }
 
-// Grows colour from `known` into `wanted`, ring by ring.
-void Grow(int rings,
-          Image8& srgb8,
+// Grows colour from `known` into `wanted`, ring by ring; each wanted texel's value is the last ring
+// that may reach it.
+void Grow(Image8& srgb8,
           Image16& provenance,
           Raster<uint8_t>& known,
           Raster<uint8_t>& wanted,
@@ -54,47 +54,50 @@ void Grow(int rings,
       for (int i = std::max(0, x - 1); i <= std::min(known.width - 1, x + 1); ++i) visit(i, j);
     }
   };
+  Raster<uint8_t> queued(known.width, known.height, 1);
   std::vector<std::pair<int, int>> frontier;
   for (int y = 0; y < known.height; ++y) {
     for (int x = 0; x < known.width; ++x) {
       if (!*wanted.At(x, y)) continue;
       bool is_beside_known = false;
       neighbours(x, y, [&](int i, int j) { is_beside_known |= *known.At(i, j) != 0; });
-      if (is_beside_known) frontier.emplace_back(x, y);
+      if (!is_beside_known) continue;
+      *queued.At(x, y) = 1;
+      frontier.emplace_back(x, y);
     }
   }
-  for (int ring = 0; ring < rings && !frontier.empty(); ++ring) {
+  for (int ring = 1; !frontier.empty(); ++ring) {
+    std::erase_if(frontier, [&](const auto& at) { return *wanted.At(at.first, at.second) < ring; });
     const std::vector<Spot> filled = GrowRing(frontier, srgb8, provenance, known);
     for (const Spot& spot : filled) {
       std::copy(spot.colour, spot.colour + 3, srgb8.At(spot.x, spot.y));
       if (!keep_provenance) *provenance.At(spot.x, spot.y) = spot.provenance;
       *known.At(spot.x, spot.y) = 1;
       *wanted.At(spot.x, spot.y) = 0;
+      *queued.At(spot.x, spot.y) = 1;
     }
     frontier.clear();
     for (const Spot& spot : filled) {
       neighbours(spot.x, spot.y, [&](int i, int j) {
-        if (*wanted.At(i, j) == 1) {
-          *wanted.At(i, j) = 2;  // queued
-          frontier.emplace_back(i, j);
-        }
+        if (*wanted.At(i, j) == 0 || *queued.At(i, j)) return;
+        *queued.At(i, j) = 1;
+        frontier.emplace_back(i, j);
       });
     }
-    for (const auto& [x, y] : frontier) *wanted.At(x, y) = 1;
   }
 }
 
 }  // namespace
 
-void SpreadIntoWeakTexels(int reach, ChartPixels& pixels) {
+void SpreadIntoWeakTexels(ChartPixels& pixels) {
   Raster<uint8_t> known(pixels.states.width, pixels.states.height, 1);
   Raster<uint8_t> wanted(pixels.states.width, pixels.states.height, 1);
   for (size_t i = 0; i < pixels.states.values.size(); ++i) {
     const auto state = static_cast<TexelState>(pixels.states.values[i]);
     known.values[i] = state == TexelState::kGood;
-    wanted.values[i] = state == TexelState::kWeak;
+    wanted.values[i] = state == TexelState::kWeak ? pixels.reach.values[i] : 0;
   }
-  Grow(reach, pixels.srgb8, pixels.provenance, known, wanted, false);
+  Grow(pixels.srgb8, pixels.provenance, known, wanted, false);
 }
 
 void PlaceOnPage(const Chart& chart,
@@ -106,7 +109,7 @@ void PlaceOnPage(const Chart& chart,
   Image8 srgb8(width, height, 3);
   Image16 provenance(width, height, 1);
   Raster<uint8_t> known(width, height, 1);
-  Raster<uint8_t> wanted(width, height, 1, 1);
+  Raster<uint8_t> wanted(width, height, 1, static_cast<uint8_t>(gutter_texels));
   for (int y = 0; y < chart.height_texels; ++y) {
     for (int x = 0; x < chart.width_texels; ++x) {
       const int to_x = x + gutter_texels;
@@ -120,7 +123,7 @@ void PlaceOnPage(const Chart& chart,
       *known.At(to_x, to_y) = 1;
     }
   }
-  Grow(gutter_texels, srgb8, provenance, known, wanted, true);
+  Grow(srgb8, provenance, known, wanted, true);
   for (int y = 0; y < height; ++y) {
     const int page_y = chart.y_on_page - gutter_texels + y;
     const int page_x = chart.x_on_page - gutter_texels;

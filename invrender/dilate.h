@@ -6,9 +6,9 @@
 
 namespace groundglass {
 
-// Weak texels within `reach` of good ones take their colour from them: the last pixel before an
-// edge of the model shows the sky as much as the wall.
-void SpreadIntoWeakTexels(int reach, ChartPixels& pixels);
+// Weak texels within their reach of good ones take their colour from them: the last pixel before
+// an edge of the model shows the sky as much as the wall.
+void SpreadIntoWeakTexels(ChartPixels& pixels);
 
 // Copies a chart to its page and repeats its border around it, `gutter_texels` wide, so that
 // filters near the border find only the face's own colour.

@@ -40,7 +40,7 @@ struct BakeOptions {
 
   // Photographs' pixels nearer than this to an occlusion border are used only where no other
   // photograph shows the place: a tag wrong by a pixel would print the sky there.
-  double border_margin_px = 1.5;
+  double border_margin_px = 2;
   // Pixels nearer than this to the frame's edge are never used, as a fraction of its width.
   double frame_margin = 0.004;
   // Finds the black mount of a slide at the frame's edges and keeps it out.
