@@ -137,13 +137,19 @@ void WriteColmapModel(const std::filesystem::path& folder,
   std::string images_text =
       "# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then a line of points (none); "
       "world: x east, y north, z up\n";
-  std::set<std::string> names;
+  // COLMAP's database numbers the images of a folder by the byte order of their names, and its
+  // point_triangulator (3.8) wants a model to have the same numbers.
+  std::map<std::string, int> id_of_name;
+  for (const NamedCamera& named : cameras) {
+    if (!id_of_name.emplace(named.name, 0).second) {
+      throw Error(folder, "two images are called " + Quote(named.name));
+    }
+  }
+  int last_id = 0;
+  for (auto& [name, id] : id_of_name) id = ++last_id;
   for (size_t i = 0; i < cameras.size(); ++i) {
     const Camera& camera = cameras[i].camera;
-    if (!names.insert(cameras[i].name).second) {
-      throw Error(folder, "two images are called " + Quote(cameras[i].name));
-    }
-    const std::string id = std::to_string(i + 1);
+    const std::string id = std::to_string(id_of_name.at(cameras[i].name));
     cameras_text +=
         id + " OPENCV " + std::to_string(camera.width_px) + " " + std::to_string(camera.height_px);
     for (const double value : {camera.focal_x_px,

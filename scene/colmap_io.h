@@ -16,7 +16,8 @@ struct NamedCamera {
 };
 
 // COLMAP text model (cameras.txt, images.txt, points3D.txt) in `world`: one OPENCV camera for each
-// image, pixel centres at 0.5 as ours. The folder is made; points3D.txt is left empty.
+// image, pixel centres at 0.5 as ours, numbered by the byte order of the names as COLMAP's
+// database of the same images is. The folder is made; points3D.txt is left empty.
 void WriteColmapModel(const std::filesystem::path& folder, const std::vector<NamedCamera>& cameras);
 
 // Reads SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL and OPENCV without tangential terms; in the

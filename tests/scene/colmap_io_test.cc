@@ -66,6 +66,18 @@ TEST(ColmapModel, RoundTrips) {
   EXPECT_EQ(ReadTextFile(folder / "again/cameras.txt"), ReadTextFile(folder / "third/cameras.txt"));
 }
 
+TEST(ColmapModel, NumbersImagesAsColmapsDatabaseDoes) {
+  // By the byte order of their names, whatever the order of the lines.
+  const TemporaryFolder folder;
+  const Camera camera = SampleCameras()[0].camera;
+  WriteColmapModel(folder.path(), {{"s2.jpg", camera}, {"s10.jpg", camera}});
+  const std::string images = ReadTextFile(folder / "images.txt");
+  EXPECT_THAT(images, HasSubstr("\n2 "));
+  EXPECT_THAT(images, HasSubstr(" 2 s2.jpg\n\n1 "));
+  EXPECT_THAT(images, HasSubstr(" 1 s10.jpg\n"));
+  EXPECT_EQ(ReadColmapModel(folder.path())[0].name, "s2.jpg");
+}
+
 TEST(ColmapModel, ColmapItselfReadsIt) {
   if (std::system("command -v colmap > /dev/null 2>&1") != 0) GTEST_SKIP() << "no colmap here";
   const TemporaryFolder folder;
