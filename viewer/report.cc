@@ -158,7 +158,8 @@ class Report {
     std::sort(films.begin(), films.end(), by_name);
     body_ +=
         "<h2>New views</h2>\n<p>The textured model from viewpoints where no photograph was taken. "
-        "Plain grey is surface that no photograph shows.</p>\n<div class=\"pair\">\n";
+        "What no photograph shows is plain grey, or filled in from its surroundings.</p>\n"
+        "<div class=\"pair\">\n";
     for (const fs::path& picture : pictures) {
       const std::string name = picture.stem().string();
       body_ += "<figure>" +

@@ -90,6 +90,32 @@ TEST(Renderer, DistantCheckerIsGreyOfHalfTheLight) {
   EXPECT_NEAR(*picture.At(10, 50), 188, 2);
 }
 
+TEST(Renderer, TapsAlongTheLineOfSightKeepSlantedStripesApart) {
+  // Level stripes of 8 texels on a wall that runs away from the viewer: narrow across, not down.
+  Image8 page(512, 512, 3);
+  for (int y = 0; y < 512; ++y) {
+    for (int x = 0; x < 512 * 3; ++x) {
+      page.values[static_cast<size_t>(y) * 512 * 3 + x] = y / 8 % 2 == 0 ? 255 : 0;
+    }
+  }
+  const TexturedModel wall = MakeWall(512, 512, page);
+  const Camera camera = MakeCamera({-200, -40, 256}, {256, 0, 256}, 64, 256, 200);
+  const auto contrast = [&](int anisotropy) {
+    RenderOptions options;
+    options.anisotropy = anisotropy;
+    const Image8 picture = Render(wall, camera, options);
+    int least = 255;
+    int most = 0;
+    for (int y = 100; y < 156; ++y) {
+      least = std::min<int>(least, *picture.At(32, y));
+      most = std::max<int>(most, *picture.At(32, y));
+    }
+    return most - least;
+  };
+  EXPECT_LT(contrast(1), 120);
+  EXPECT_GT(contrast(16), 200);
+}
+
 // The border of a black wall crosses pixels at half their width.
 Image8 RenderHalfCoveredPixels(const RenderOptions& options) {
   Camera camera = FrontalCamera();
