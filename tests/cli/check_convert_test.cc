@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "tests/cli/program.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdio>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::Contains;
+using testing::HasSubstr;
+
+const std::string kBrick = std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick";
+
+void ReplaceIn(const fs::path& file, const std::string& old_text, const std::string& new_text) {
+  std::string text = ReadAll(file);
+  const size_t at = text.find(old_text);
+  ASSERT_NE(at, std::string::npos) << file << " has no " << old_text;
+  WriteAll(file, text.replace(at, old_text.size(), new_text));
+}
+
+TEST(Check, ASoundSceneHasNoFaults) {
+  const ProgramRun run = RunProgram({"check", kBrick, "--json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const json result = json::parse(run.out);
+  EXPECT_TRUE(result["faults"].empty());
+  EXPECT_EQ(result["photographs"].size(), 12u);
+  EXPECT_EQ(result["faces"], 70);
+}
+
+TEST(Check, ListsEveryFaultInOneGo) {
+  const WorkFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1", "s2", "s3", "s4", "s5"});
+  WriteAll(scene / "views" / "s1.view", "x 1\ny 2\nz 3\ni 4\nj 5\nk 6\na 1.5\nv 200\n");
+  WriteAll(scene / "views" / "s2.view", "x 1\ny 2\nx 3\ni 4\nj 5\nk 6\na 1.5\nv 58\n");
+  WriteAll(scene / "images" / "s3.jpg", "no picture");
+  fs::remove(scene / "images" / "s4.jpg");
+  ReplaceIn(scene / "model.osu", "\n4 ", "\n4 9999 ");
+  const std::string before = Fingerprint(scene);
+
+  const ProgramRun run = RunProgram({"check", scene.string(), "--json"});
+  EXPECT_EQ(run.status, 1);
+  const json result = json::parse(run.out);
+  const auto faults = result["faults"].get<std::vector<std::string>>();
+  EXPECT_THAT(faults, Contains(testing::AllOf(HasSubstr("s1.view:8"), HasSubstr("'v'"))));
+  EXPECT_THAT(faults, Contains(testing::AllOf(HasSubstr("s2.view:3"), HasSubstr("'x'"))));
+  EXPECT_THAT(faults, Contains(HasSubstr("s3.jpg")));
+  EXPECT_THAT(faults, Contains(HasSubstr("model.osu:")));
+  for (const std::string& fault : faults) EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+  // A tag without a photograph is told, as a fault or as a warning.
+  EXPECT_THAT(run.out, HasSubstr("s4"));
+
+  const ProgramRun for_people = RunProgram({"check", scene.string()});
+  EXPECT_EQ(for_people.status, 1);
+  for (const char* name : {"s1.view:8", "s2.view:3", "s3.jpg", "model.osu:", "s4"}) {
+    EXPECT_THAT(for_people.out, HasSubstr(name));
+  }
+  EXPECT_EQ(Fingerprint(scene), before);
+}
+
+TEST(Check, DrawsTheMeasuredTags) {
+  const WorkFolder work;
+  CopyBrick(work / "scene", {"s1"});
+  const ProgramRun run = RunProgram(
+      {"check", (work / "scene").string(), "-o", (work / "overlays").string(), "--quiet"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_GT(fs::file_size(work / "overlays" / "s1.jpg"), 10000u);
+}
+
+TEST(Convert, AModelSurvivesTheWayThroughObj) {
+  const WorkFolder work;
+  const std::string obj = (work / "a.obj").string();
+  const std::string osu = (work / "a.osu").string();
+  const std::string again = (work / "b.osu").string();
+  ASSERT_EQ(RunProgram({"convert", kBrick + "/model.osu", osu}).status, 0);
+  ASSERT_EQ(RunProgram({"convert", osu, obj}).status, 0);
+  ASSERT_EQ(RunProgram({"convert", obj, again}).status, 0);
+  const json first = json::parse(RunProgram({"check", kBrick, "--json"}).out);
+  const json last = json::parse(RunProgram({"check", kBrick, "--model", again, "--json"}).out);
+  EXPECT_EQ(first["points"], last["points"]);
+  EXPECT_EQ(first["faces"], last["faces"]);
+}
+
+// What a command prints, and its exit status.
+std::pair<int, std::string> RunOther(const std::string& command) {
+  std::string output;
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer;
+  for (size_t size; (size = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
+    output.append(buffer.data(), size);
+  }
+  return {pclose(pipe), output};
+}
+
+TEST(Convert, ColmapReadsOurCamerasAndWeReadThemBack) {
+  const WorkFolder work;
+  const std::string colmap_folder = (work / "colmap").string();
+  const std::string views_folder = (work / "views").string();
+  const ProgramRun there = RunProgram({"convert", kBrick + "/views", colmap_folder});
+  ASSERT_EQ(there.status, 0) << there.err;
+  const ProgramRun back = RunProgram({"convert", colmap_folder, views_folder});
+  ASSERT_EQ(back.status, 0) << back.err;
+  EXPECT_TRUE(fs::is_regular_file(fs::path(views_folder) / "s12.view"));
+  // The way there and back moves no camera: the errors of both against the truth are one.
+  const auto errors_of = [](const std::string& folder) {
+    const ProgramRun run = RunProgram({"evaluate", folder, "--truth", kBrick + "/truth", "--json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return json::parse(run.out);
+  };
+  const json there_errors = errors_of(colmap_folder)["photographs"];
+  const json back_errors = errors_of(views_folder)["photographs"];
+  ASSERT_EQ(there_errors.size(), 12u);
+  ASSERT_EQ(back_errors.size(), 12u);
+  for (size_t i = 0; i < 12; ++i) {
+    EXPECT_NEAR(there_errors[i]["vertex_error_px"], back_errors[i]["vertex_error_px"], 1e-6);
+  }
+
+  if (RunOther("command -v colmap").first != 0) GTEST_SKIP() << "COLMAP is not installed";
+  const auto [status, report] =
+      RunOther("QT_QPA_PLATFORM=offscreen colmap model_analyzer --path '" + colmap_folder + "'");
+  EXPECT_EQ(status, 0) << report;
+  EXPECT_THAT(report, HasSubstr("Registered images: 12"));
+}
+
+}  // namespace
+}  // namespace groundglass
