@@ -170,11 +170,11 @@ Subject MakeBrickHall(uint64_t seed) {
   subject.world.num_model_faces = static_cast<int>(subject.world.geometry.faces.size());
   const Box bounds = ComputeBounds(subject.world.geometry);
   AddSurroundings(builder, bounds.Center().head<2>(), 115, seed);
-  subject.views = MakeRingOfViews(bounds, 12, 62, 15, 5, "s", 1);
+  subject.views = MakeRingOfViews(bounds, 12, 75, 15, 5, "s", 1);
   for (const PlannedView& view : MakeRingOfViews(bounds, 4, 85, 40, 34, "s", 13)) {
     subject.views.push_back(view);
   }
-  subject.novel_views = MakeRingOfViews(bounds, 3, 66, 268, 6, "n", 1);
+  subject.novel_views = MakeRingOfViews(bounds, 3, 72, 268, 6, "n", 1);
   return subject;
 }
 

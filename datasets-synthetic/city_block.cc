@@ -12,7 +12,7 @@ namespace {
 constexpr double kFloor = 12;    // feet from floor to floor
 constexpr double kSill = 3.5;    // of a window above its floor
 constexpr double kWindow = 5.5;  // a window's height
-constexpr double kMinBay = 7;
+constexpr double kMinBay = 5.5;
 constexpr double kWindowWidth = 5;  // one pane of the glazing's texture
 
 struct Building {
@@ -152,9 +152,11 @@ Subject MakeCityBlock(uint64_t seed, int num_faces) {
   subject.world.num_model_faces = static_cast<int>(subject.world.geometry.faces.size());
   const Box bounds = ComputeBounds(subject.world.geometry);
   const double reach = (bounds.max - bounds.min).head<2>().maxCoeff() / 2;
-  AddSurroundings(builder, bounds.Center().head<2>(), reach + 60, seed);
   const double height = bounds.max.z();
-  const double distance = std::max(90.0, 1.2 * height);
+  const double distance = std::max(110.0, 1.6 * height);
+  // Whoever photographs stands before the distant blocks, which begin 330 ft beyond the plaza.
+  const double plaza = reach + std::max(60.0, 1.3 * distance - 250);
+  AddSurroundings(builder, bounds.Center().head<2>(), plaza, seed);
   subject.views = MakeRingOfViews(bounds, 16, distance, 5, 5, "s", 1);
   for (const PlannedView& view :
        MakeRingOfViews(bounds, 6, 1.3 * distance, 20, 1.25 * height, "s", 17)) {

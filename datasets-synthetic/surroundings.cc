@@ -79,7 +79,7 @@ void AddSurroundings(WorldBuilder& builder,
   for (int i = 0; i < kNumBlocks; ++i) {
     const auto draw = [&](const char* what) { return UniformOf(SeedFor(seed, what, i)); };
     const double angle = 2 * std::numbers::pi * (i + 0.6 * draw("block angle")) / kNumBlocks;
-    const double distance = 480 + 500 * draw("block distance");
+    const double distance = radius + 330 + 500 * draw("block distance");
     const Eigen::Vector2d middle =
         center + distance * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     const Eigen::Vector2d half(30 + 60 * draw("block width"), 25 + 40 * draw("block depth"));

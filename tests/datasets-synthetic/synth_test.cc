@@ -2,13 +2,11 @@
 // Part of Groundglass.
 #include "datasets-synthetic/synth.h"
 
-#include "datasets-synthetic/buildings.h"
 #include "datasets-synthetic/evaluate.h"
 #include "scene/error.h"
-#include "scene/model_io.h"
+#include "scene/image_io.h"
 #include "scene/scene_folder.h"
 #include "scene/view_io.h"
-#include "scene/visibility.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -91,49 +89,25 @@ TEST(Synth, SameRecipeGivesSameBytesWhateverTheThreads) {
               testing::ThrowsMessage<Error>(testing::HasSubstr("not empty")));
 }
 
-TEST(Wiesner, HasAboutAHundredSoundFaces) {
-  const PolygonModel model = MakeWiesner(1988).world.Model();
-  EXPECT_GE(model.faces.size(), 80u);
-  EXPECT_LE(model.faces.size(), 120u);
-  for (int face = 0; face < static_cast<int>(model.faces.size()); ++face) {
-    const FaceCheck check = CheckFace(model, face);
-    EXPECT_EQ(check.fault, "") << DescribeFace(model, face);
-    EXPECT_EQ(check.warning, "") << DescribeFace(model, face);
-    EXPECT_NE(model.faces[face].name, "");
-  }
-}
-
-TEST(Wiesner, ShowsNoBackFacesAndNoGapsFromWhereItIsPhotographed) {
-  const Subject subject = MakeWiesner(1988);
-  const Visibility visibility(subject.world.geometry);
-  for (const PlannedView& view : subject.views) {
-    ViewTag tag;
-    tag.position_in_site = view.position_in_site;
-    tag.lookat_in_site = view.lookat_in_site;
-    const Camera camera = CameraFromTag(tag, 150, 100);
-    for (int y = 0; y < 100; ++y) {
-      for (int x = 0; x < 150; ++x) {
-        const Eigen::Vector3d direction = UnprojectToWorld(camera, {x + 0.5, y + 0.5});
-        const auto hit = visibility.FirstHit(camera.PositionInWorld(), direction);
-        if (hit && hit->face < subject.world.num_model_faces) {
-          EXPECT_TRUE(hit->is_front)
-              << view.name << " " << DescribeFace(subject.world.geometry, hit->face);
-        }
-      }
-    }
-  }
-}
-
-TEST(Wiesner, TheThesisViewLooksAtTheEastWall) {
-  const PolygonModel model = MakeWiesner(1988).world.Model();
-  ViewTag s5;
-  s5.position_in_site = {232, -104, 4.5};
-  s5.lookat_in_site = {104, -2, 33.1};
-  const Camera camera = CameraFromTag(s5, 300, 200);
-  const auto hit = Visibility(model).FirstHit(camera.PositionInWorld(), camera.ForwardInWorld());
-  ASSERT_TRUE(hit.has_value());
-  EXPECT_THAT(model.faces[hit->face].name, testing::HasSubstr("east wall"));
-  EXPECT_NEAR((camera.PositionInWorld() + hit->distance * camera.ForwardInWorld()).x(), 104, 1e-3);
+// Video frames and mounts have cameras and masks of the picture as written.
+TEST(Synth, HardAndVideoPresetsAreScenesToo) {
+  const TemporaryFolder folder;
+  SynthRecipe recipe = PresetRecipe("hard");
+  recipe.width_px = 120;
+  recipe.height_px = 80;
+  recipe.num_views = 2;
+  recipe.photo.ntsc = true;
+  WriteSyntheticScene(recipe, folder / "hard");
+  const Scene scene = ReadScene(folder / "hard");
+  EXPECT_EQ(scene.photographs.front().size.width, 640);
+  const Truth truth = ReadTruth(folder / "hard" / "truth");
+  EXPECT_EQ(truth.cameras.front().camera.width_px, 640);
+  EXPECT_NEAR(truth.cameras.front().camera.k1, -0.03, 1e-9);
+  const Image16 masks = ReadLabels(folder / "hard" / "truth/masks_occ/s1.png");
+  EXPECT_EQ(masks.width, 640);
+  int num_mount = 0;
+  for (const uint16_t label : masks.values) num_mount += label == kMount;
+  EXPECT_GT(num_mount, 0);
 }
 
 TEST(Recipe, ReadsBackAsWrittenAndOverridesSingleFields) {
