@@ -22,7 +22,7 @@ constexpr float kPaletteWeight = 0.5f;
 // How much a view of lower quality loses, for each e-fold.
 constexpr float kBlurWeight = 1;
 // Sun and cast shadows: how fast photographs with uneven light lose.
-constexpr double kEvenLightPreference = 2;
+constexpr double kEvenLightPreference = 4;
 
 // The colours of one cell in the photographs that see it.
 struct CellColours {

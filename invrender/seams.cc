@@ -15,9 +15,9 @@ namespace {
 // Costs are natural logarithms of quality: 0.7 is half the resolution.
 constexpr double kWorst = 12;
 // A cell's side of seam where nothing shows.
-constexpr double kSeam = 0.05;
+constexpr double kSeam = 0.15;
 // For each log unit that the two photographs differ there, up to kMostDifferent.
-constexpr double kSeamPerUnit = 2;
+constexpr double kSeamPerUnit = 4;
 constexpr double kMostDifferent = 1;
 constexpr int kRounds = 2;
 
