@@ -105,6 +105,7 @@ std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonMod
         WithSigma(std::hypot(errors.parameters[8], errors.parameters[9]), sigmas.shift, 4).c_str(),
         verdict.c_str());
   }
+  if (evaluation.photographs.empty()) text.clear();
   if (evaluation.all.count > 0) text += FormatSummary("vertex error", evaluation.all);
   const bool has_verdicts =
       std::any_of(evaluation.photographs.begin(),

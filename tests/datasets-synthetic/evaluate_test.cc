@@ -4,6 +4,7 @@
 
 #include "scene/error.h"
 #include "scene/osu_io.h"
+#include "scene/textured_model_io.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,6 +50,30 @@ TEST(Evaluate, AFolderWithoutCamerasIsAnError) {
   const Truth truth = ReadTruth(kBrick / "truth");
   EXPECT_THAT([&] { ReadFoundCameras(kBrick / "images", truth); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("no cameras here; expected")));
+}
+
+// A textured model whose cameras are kept elsewhere; without texture it covers nothing.
+TEST(Evaluate, AModelAloneIsJudgedByItsNovelViews) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "evaluate-XXXXXX").string();
+  const std::filesystem::path folder = mkdtemp(pattern.data());
+  TexturedModel untextured;
+  untextured.model = BrickModel();
+  untextured.faces.resize(untextured.model.faces.size());
+  WriteGlb(folder / "model.glb", untextured);
+  EvaluateOptions options;
+  options.render = [](const TexturedModel&, const Camera& camera) {
+    return Image8(camera.width_px, camera.height_px, 3, 128);
+  };
+  const Evaluation evaluation =
+      Evaluate(folder, ReadTruth(kBrick / "truth"), BrickModel(), options);
+  std::filesystem::remove_all(folder);
+  EXPECT_TRUE(evaluation.photographs.empty());
+  ASSERT_EQ(evaluation.novel_views.size(), 3u);
+  EXPECT_EQ(evaluation.novel_views[0].errors.coverage, 0);
+  EXPECT_LT(evaluation.novel_views[0].errors.psnr_db, 20);
+  const std::string table = FormatEvaluationTable(evaluation, BrickModel());
+  EXPECT_THAT(table, testing::HasSubstr("novel view n1"));
+  EXPECT_THAT(table, testing::Not(testing::HasSubstr("vertex")));
 }
 
 TEST(CoveredPixels, ProvenanceSaysWhichHalfOfAWallIsTextured) {
