@@ -23,7 +23,7 @@ constexpr double kOutlierFactor = 6;
 // Blocks: lens 6 (LensVector), rotation 4 (cam_from_board, unit quaternion x y z w), translation 3
 // (the board's unit). Residual 8. A corner behind the camera fails the evaluation.
 struct TagResidual {
-  Eigen::Matrix<double, 3, 4> corners_on_board;
+  Eigen::Matrix<double, 2, 4> corners_on_board;
   Eigen::Matrix<double, 8, 1> observed_px;
   Eigen::Matrix<double, 8, 8> root_information;
   double width_px;
@@ -34,19 +34,23 @@ struct TagResidual {
                const T* rotation,
                const T* translation,
                Eigen::Matrix<T, 8, 1>* projected_px) const {
-    const Eigen::Map<const Eigen::Quaternion<T>> cam_from_board(rotation);
-    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> origin_in_cam(translation);
+    const Eigen::Matrix<T, 3, 3> cam_from_board =
+        Eigen::Map<const Eigen::Quaternion<T>>(rotation).toRotationMatrix();
     using std::tan;
     const T focal_x_px = T(0.5 * width_px) / tan(0.5 * lens[0]);
     const T focal_y_px = focal_x_px * lens[1] * T(height_px / width_px);
     const T center_x_px = T(width_px) * (0.5 + lens[2]);
     const T center_y_px = T(0.5 * height_px) + lens[3] * T(width_px) * focal_y_px / focal_x_px;
     for (int corner = 0; corner < 4; ++corner) {
-      const Eigen::Matrix<T, 3, 1> in_cam =
-          cam_from_board * corners_on_board.col(corner).cast<T>() + origin_in_cam;
-      if (in_cam.z() <= T(0)) return false;
-      const T x = in_cam.x() / in_cam.z();
-      const T y = in_cam.y() / in_cam.z();
+      // The board is the plane z = 0.
+      std::array<T, 3> in_cam;
+      for (int axis = 0; axis < 3; ++axis) {
+        in_cam[axis] = cam_from_board(axis, 0) * corners_on_board(0, corner) +
+                       cam_from_board(axis, 1) * corners_on_board(1, corner) + translation[axis];
+      }
+      if (in_cam[2] <= T(0)) return false;
+      const T x = in_cam[0] / in_cam[2];
+      const T y = in_cam[1] / in_cam[2];
       const T r2 = x * x + y * y;
       const T s = 1.0 + lens[4] * r2 + lens[5] * r2 * r2;
       (*projected_px)[2 * corner] = focal_x_px * s * x + center_x_px;
@@ -59,16 +63,21 @@ struct TagResidual {
   bool operator()(const T* lens, const T* rotation, const T* translation, T* residual) const {
     Eigen::Matrix<T, 8, 1> projected_px;
     if (!Project(lens, rotation, translation, &projected_px)) return false;
-    Eigen::Map<Eigen::Matrix<T, 8, 1>> whitened(residual);
-    whitened = root_information.cast<T>() * (projected_px - observed_px.cast<T>());
+    // The root is upper triangular, and its numbers need no derivatives.
+    for (int row = 0; row < 8; ++row) {
+      residual[row] = T(0);
+      for (int column = row; column < 8; ++column) {
+        residual[row] +=
+            root_information(row, column) * (projected_px[column] - observed_px[column]);
+      }
+    }
     return true;
   }
 };
 
 TagResidual MakeResidual(const Board& board, const TagCorners& tag, int width_px, int height_px) {
   TagResidual residual;
-  residual.corners_on_board.topRows<2>() = TagCornersOnBoard(board, tag.id);
-  residual.corners_on_board.row(2).setZero();
+  residual.corners_on_board = TagCornersOnBoard(board, tag.id);
   residual.observed_px = tag.corners_px;
   residual.root_information = tag.information.llt().matrixU();
   residual.width_px = width_px;
@@ -103,19 +112,24 @@ Eigen::Matrix3d EstimateHomography(const Board& board,
                                    const Eigen::Vector2d& center_px,
                                    double scale_px) {
   const double board_scale = board.columns * (board.tag_size + board.gap);
-  Eigen::MatrixXd rows(8 * shot.tags.size(), 9);
-  Eigen::Index row = 0;
+  // The normal matrix of the two equations that each corner gives.
+  using Vector9 = Eigen::Matrix<double, 9, 1>;
+  Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
   for (const TagCorners& tag : shot.tags) {
     const Eigen::Matrix<double, 2, 4> on_board = TagCornersOnBoard(board, tag.id) / board_scale;
     for (int corner = 0; corner < 4; ++corner) {
       const Eigen::Vector3d from = on_board.col(corner).homogeneous();
       const Eigen::Vector2d to = (tag.corners_px.segment<2>(2 * corner) - center_px) / scale_px;
-      rows.row(row++) << from.transpose(), Eigen::RowVector3d::Zero(), -to.x() * from.transpose();
-      rows.row(row++) << Eigen::RowVector3d::Zero(), from.transpose(), -to.y() * from.transpose();
+      Vector9 equation;
+      equation << from, Eigen::Vector3d::Zero(), -to.x() * from;
+      normal += equation * equation.transpose();
+      equation << Eigen::Vector3d::Zero(), from, -to.y() * from;
+      normal += equation * equation.transpose();
     }
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
-  const Eigen::VectorXd h = svd.matrixV().col(8);
+  // Eigenvalues come in increasing order: the first vector fits best.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
+  const Vector9 h = solver.eigenvectors().col(0);
   Eigen::Matrix3d homography;
   homography << h.segment<3>(0).transpose(), h.segment<3>(3).transpose(),
       h.segment<3>(6).transpose();
