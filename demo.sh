@@ -26,7 +26,7 @@ run() {
 
 ./install-packages.sh build
 echo "== Building"
-if [[ ! -f build/release/CMakeCache.txt ]]; then  # else as test.sh left it
+if [[ ! -f build/release/build.ninja ]]; then  # else as test.sh left it
   launcher=()
   if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   cmake --log-level=WARNING --preset release "${launcher[@]}" \
