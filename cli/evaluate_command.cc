@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "datasets-synthetic/error_plot.h"
 #include "datasets-synthetic/evaluate.h"
 #include "datasets-synthetic/trials.h"
+#include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/model_io.h"
 #include "scene/scene_folder.h"
@@ -21,6 +23,7 @@ struct EvaluateArguments {
   std::string found;
   std::string truth;
   std::string model;
+  std::string plot_file;  // empty: none
   // Monte-Carlo trials of registration; 0: none. `found` is then the scene itself.
   int num_trials = 0;
   TrialOptions trials;
@@ -37,6 +40,10 @@ fs::path FindModel(const fs::path& truth_folder) {
   throw Error(scene_folder, "no model beside the truth folder; name it with --model");
 }
 
+const char* UnitName(const PolygonModel& model) {
+  return model.unit == LengthUnit::kFoot ? "ft" : "m";
+}
+
 int EvaluateFound(const EvaluateArguments& arguments) {
   const Truth truth = ReadTruth(arguments.truth);
   ModelOptions model_options;
@@ -51,6 +58,11 @@ int EvaluateFound(const EvaluateArguments& arguments) {
     return Render(textured, camera, render_options);
   };
   const Evaluation evaluation = Evaluate(arguments.found, truth, model, options);
+  if (!arguments.plot_file.empty()) {
+    WriteFileAtomically(
+        arguments.plot_file,
+        FormatErrorPlot(PlotPointsOf(evaluation), "Errors of " + arguments.found, UnitName(model)));
+  }
   std::fputs(arguments.common.json ? FormatEvaluationJson(evaluation, model).c_str()
                                    : FormatEvaluationTable(evaluation, model).c_str(),
              stdout);
@@ -67,6 +79,12 @@ int RunTrialsOfScene(const EvaluateArguments& arguments) {
   options.seed = arguments.common.seed;
   const std::vector<Trial> trials = RunTrials(
       scene, ReadTruth(arguments.truth), options, MakeProgress(arguments.common, "notebooks"));
+  if (!arguments.plot_file.empty()) {
+    WriteFileAtomically(arguments.plot_file,
+                        FormatErrorPlot(PlotPointsOf(trials),
+                                        "Trials of " + arguments.found + ", px at 640 wide",
+                                        UnitName(scene.model)));
+  }
   std::fputs(arguments.common.json ? FormatTrialsJson(trials, options).c_str()
                                    : FormatTrialsTable(trials, options).c_str(),
              stdout);
@@ -85,6 +103,7 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
       ->required();
   command->add_option("--truth", arguments->truth, "the scene's truth folder")->required();
   command->add_option("--model", arguments->model, "the polygon model, if not beside the truth");
+  command->add_option("--plot", arguments->plot_file, "SVG of errors against start and claims");
   AddCommonOptions(command, arguments->common);
   command->add_option("--trials",
                       arguments->num_trials,
@@ -104,6 +123,10 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
                    arguments->trials.sigma_lookat,
                    "of the trials' notebooks, look-at point, model's unit")
       ->capture_default_str();
+  command->add_option("--blunders",
+                      arguments->trials.num_blunders,
+                      "tags of each trial's notebook that hold a blunder: swapped coordinates, a "
+                      "wrong sign, another photograph's numbers");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] {
       return arguments->num_trials > 0 ? RunTrialsOfScene(*arguments) : EvaluateFound(*arguments);

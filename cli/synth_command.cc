@@ -3,11 +3,13 @@
 #include "cli/commands.h"
 #include "datasets-synthetic/synth.h"
 #include "scene/error.h"
+#include "scene/image_io.h"
 #include "scene/view_io.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 namespace groundglass {
@@ -20,6 +22,8 @@ struct SynthArguments {
   std::string size;
   std::string recipe_file;
   int num_views = -1;
+  int num_blunders = -1;
+  std::string pictures;  // folder for --list
   bool list = false;
 };
 
@@ -30,9 +34,17 @@ void ParseSize(const std::string& size, SynthRecipe& recipe) {
   }
 }
 
-void PrintPresets() {
+// The presets, and a picture of each in a folder if one is named.
+void PrintPresets(const std::filesystem::path& pictures) {
   for (const SynthPreset& preset : ListSynthPresets()) {
     std::printf("%-10s %s\n", preset.name.c_str(), preset.description.c_str());
+    if (pictures.empty()) continue;
+    SynthRecipe recipe = PresetRecipe(preset.name);
+    recipe.width_px = 480;
+    recipe.height_px = 320;
+    const std::filesystem::path file = pictures / (preset.name + ".jpg");
+    WriteSrgb8(file, RenderPresetPicture(recipe));
+    std::printf("%-10s %s\n", "", file.c_str());
   }
 }
 
@@ -43,6 +55,7 @@ int RunSynth(const SynthArguments& arguments, bool has_seed) {
   }
   if (!arguments.size.empty()) ParseSize(arguments.size, recipe);
   if (arguments.num_views >= 0) recipe.num_views = arguments.num_views;
+  if (arguments.num_blunders >= 0) recipe.notebook.blunders = arguments.num_blunders;
   if (has_seed) recipe.seed = arguments.common.seed;
   recipe.Check();
   if (arguments.common.dry_run) {
@@ -56,6 +69,7 @@ int RunSynth(const SynthArguments& arguments, bool has_seed) {
                                          {"faces", summary.num_faces},
                                          {"photographs", summary.num_photographs},
                                          {"novel_views", summary.num_novel_views},
+                                         {"blunders", summary.num_blunders},
                                          {"mean_tag_error_px", summary.mean_tag_error_px}};
     std::printf("%s\n", json.dump(2).c_str());
   } else {
@@ -80,11 +94,20 @@ void AddSynthCommand(CLI::App& app, int& exit_status) {
   command->add_option("--size", arguments->size, "of the photographs, as 1500x1000");
   command->add_option("--views", arguments->num_views, "how many of the planned views; 0 for all");
   command->add_option("--recipe", arguments->recipe_file, "JSON file that overrides the preset");
+  command->add_option("--blunders",
+                      arguments->num_blunders,
+                      "tags that hold a blunder: swapped coordinates, a wrong sign, another "
+                      "photograph's numbers");
   command->add_flag("--list", arguments->list, "list the presets");
+  command->add_option(
+      "--pictures", arguments->pictures, "with --list: a picture of each preset into this folder");
   AddCommonOptions(command, arguments->common);
   command->callback([command, arguments, &exit_status] {
     if (arguments->list) {
-      PrintPresets();
+      exit_status = RunWithThreads(arguments->common, [&] {
+        PrintPresets(arguments->pictures);
+        return kExitDone;
+      });
       return;
     }
     if (arguments->preset.empty()) throw CLI::RequiredError("preset");

@@ -159,6 +159,12 @@ SkyMap::SkyMap(const SyntheticWorld& world,
   });
 }
 
+Rgb IndirectIrradiance(const Daylight& light, float sky_share) {
+  return sky_share * light.sky +
+         (1 - sky_share) *
+             (0.17f * light.sky + 0.16f * light.sun * static_cast<float>(light.to_sun.z()));
+}
+
 double SkyMap::SkyShare(const Surface& surface, int face, double u, double v) const {
   if (face >= static_cast<int>(grids_.size())) {
     // Things that stand about in one photograph only.

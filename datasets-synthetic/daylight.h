@@ -29,6 +29,10 @@ Daylight MakeSunny(double azimuth_deg, double elevation_deg, uint64_t seed);
 // Radiance of the sky in a direction (unit, in `world`), clouds included.
 Rgb SkyRadiance(const Daylight& light, const Eigen::Vector3d& direction_in_world);
 
+// What reaches a place that sees this share of the sky, without the sun itself: the sky's light,
+// and for the rest what ground and walls send back of theirs.
+Rgb IndirectIrradiance(const Daylight& light, float sky_share);
+
 // How much of the sky each place on each face sees, cosine-weighted: 1 on open ground, a half on a
 // wall that stands free. Sampled on a grid of a few feet over each face near the building, and read
 // between its points.

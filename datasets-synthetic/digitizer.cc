@@ -28,8 +28,6 @@ Eigen::Vector2d IdealFromScan(const SlideTransform& slide,
                                   -std::sin(turn) * turned.x() + std::cos(turn) * turned.y());
 }
 
-cv::Mat View(Image8& image) { return {image.height, image.width, CV_8UC3, image.values.data()}; }
-
 }  // namespace
 
 double DepthInOpening(const MountOpening& opening,
@@ -49,7 +47,7 @@ double DepthInOpening(const MountOpening& opening,
   return radius - beyond.cwiseMax(0).norm() - std::min(0.0, beyond.maxCoeff());
 }
 
-void DrawMount(const MountOpening& opening, const SlideTransform& slide, Image8& scan) {
+void DrawMount(const MountOpening& opening, const SlideTransform& slide, ImageF& scan) {
   for (int y = 0; y < scan.height; ++y) {
     for (int x = 0; x < scan.width; ++x) {
       const double depth =
@@ -57,13 +55,15 @@ void DrawMount(const MountOpening& opening, const SlideTransform& slide, Image8&
       if (depth > 2) continue;
       const double light = std::clamp((depth + 1.2) / 2.4, 0.0, 1.0);
       for (int c = 0; c < 3; ++c) {
-        scan.At(x, y)[c] = static_cast<uint8_t>(7 + light * (scan.At(x, y)[c] - 7) + 0.5);
+        constexpr double kBlack = 7.0 / 255;
+        float& value = scan.At(x, y)[c];
+        value = static_cast<float>(kBlack + light * (value - kBlack));
       }
     }
   }
 }
 
-void DrawDust(int num_specks, int num_scratches, uint64_t seed, Image8& scan) {
+void DrawDust(int num_specks, int num_scratches, uint64_t seed, ImageF& scan) {
   cv::Mat layer(scan.height, scan.width, CV_32F, cv::Scalar(0));
   const auto draw = [&](int thing, int part, double low, double high) {
     return low + (high - low) * UniformOf(HashOf(seed, thing, part));
@@ -103,26 +103,23 @@ void DrawDust(int num_specks, int num_scratches, uint64_t seed, Image8& scan) {
     draw_hair(1000 + i, unit * draw(1000 + i, 3, 80, 400), 0.03, 0.35);
   }
   cv::GaussianBlur(layer, layer, {3, 3}, 0.6, 0.6);
-  cv::Mat view = View(scan);
   for (int y = 0; y < scan.height; ++y) {
     for (int x = 0; x < scan.width; ++x) {
       const float strength = layer.at<float>(y, x);
       if (strength == 0) continue;
       for (int c = 0; c < 3; ++c) {
-        uint8_t& value = view.at<cv::Vec3b>(y, x)[c];
-        const float toward = strength < 0 ? 20.0f : 255.0f;
-        value = static_cast<uint8_t>(value + std::abs(strength) * (toward - value) + 0.5f);
+        float& value = scan.At(x, y)[c];
+        const float toward = strength < 0 ? 0.08f : 1.0f;
+        value += std::abs(strength) * (toward - value);
       }
     }
   }
 }
 
-Image8 NtscFromScan(const Image8& scan, uint64_t seed) {
+ImageF NtscFromScan(const ImageF& scan, uint64_t seed) {
   constexpr int kWidth = 640;
   constexpr int kHeight = 480;
-  cv::Mat source;
-  cv::Mat(scan.height, scan.width, CV_8UC3, const_cast<uint8_t*>(scan.values.data()))
-      .convertTo(source, CV_32FC3, 1.0 / 255);
+  const cv::Mat source(scan.height, scan.width, CV_32FC3, const_cast<float*>(scan.values.data()));
   cv::Mat frame;
   cv::resize(source, frame, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
   // The second field is sampled a little aside: the recorder's time base.
@@ -155,12 +152,11 @@ Image8 NtscFromScan(const Image8& scan, uint64_t seed) {
   cv::merge(planes, yiq);
   cv::Mat rgb;
   cv::transform(yiq, rgb, yiq_from_rgb.inv());
-  Image8 result(kWidth, kHeight, 3);
+  ImageF result(kWidth, kHeight, 3);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       for (int c = 0; c < 3; ++c) {
-        const float value = std::clamp(rgb.at<cv::Vec3f>(y, x)[c] * 255 + 0.5f, 0.0f, 255.0f);
-        result.At(x, y)[c] = static_cast<uint8_t>(value);
+        result.At(x, y)[c] = std::clamp(rgb.at<cv::Vec3f>(y, x)[c], 0.0f, 1.0f);
       }
     }
   }

@@ -21,14 +21,15 @@ double DepthInOpening(const MountOpening& opening,
                       const Eigen::Vector2d& scan_px,
                       int width_px,
                       int height_px);
-void DrawMount(const MountOpening& opening, const SlideTransform& slide, Image8& scan_srgb8);
+// Pictures here are encoded sRGB in [0, 1], 3 channels, as DevelopPhotograph gives them.
+void DrawMount(const MountOpening& opening, const SlideTransform& slide, ImageF& scan);
 
 // Specks and hairs on the slide (dark), and scratches in its emulsion (light).
-void DrawDust(int num_specks, int num_scratches, uint64_t seed, Image8& scan_srgb8);
+void DrawDust(int num_specks, int num_scratches, uint64_t seed, ImageF& scan);
 
 // The scan as an NTSC frame of 640 x 480 digitised from video, as the thesis' slides were: not
 // square pixels, chroma of little bandwidth, fields half a line's time apart, noise. The whole scan
 // fills the frame.
-Image8 NtscFromScan(const Image8& scan_srgb8, uint64_t seed);
+ImageF NtscFromScan(const ImageF& scan, uint64_t seed);
 
 }  // namespace groundglass

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "datasets-synthetic/evaluate.h"
 
+#include "datasets-synthetic/texel_map.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/registration_io.h"
@@ -63,6 +64,9 @@ void EvaluateCameras(const fs::path& found,
     const auto registration = registration_of_name.find(true_camera.name);
     if (registration != registration_of_name.end()) {
       photograph.verdict = registration->second.verdict;
+      photograph.start_px =
+          MeasureVertexError(model, true_camera.camera, registration->second.MeasuredCamera())
+              .mean_px;
       if (photograph.verdict != Verdict::kRejected) {
         photograph.sigmas = registration->second.sigmas;
         photograph.calibration =
@@ -111,14 +115,17 @@ void ReadProvenance(const fs::path& found, TexturedModel& model) {
   }
 }
 
-void EvaluateNovelViews(const fs::path& found,
-                        const Truth& truth,
-                        const EvaluateOptions& options,
-                        Evaluation& evaluation) {
+void EvaluateTextures(const fs::path& found,
+                      const Truth& truth,
+                      const EvaluateOptions& options,
+                      Evaluation& evaluation) {
   const fs::path file = found / "model.glb";
-  if (!options.render || truth.novel_views.empty() || !fs::exists(file)) return;
+  if (!options.render || !fs::exists(file)) return;
   TexturedModel model = ReadTexturedModel(file);
   ReadProvenance(found, model);
+  if (!truth.texels_file.empty()) {
+    evaluation.texels = MeasureTexels(model, ReadTexels(truth.texels_file));
+  }
   for (const NovelView& view : truth.novel_views) {
     const Image8 true_srgb8 = ReadSrgb8(view.image_file);
     const Camera camera = CameraFromTag(view.tag, true_srgb8.width, true_srgb8.height);
@@ -128,37 +135,6 @@ void EvaluateNovelViews(const fs::path& found,
                                                       ReadLabels(view.faces_file),
                                                       CoveredPixels(model, camera))});
   }
-}
-
-// Texture coordinates of a point on a face, by the affine map that its corners fix.
-struct TexelMap {
-  Eigen::Matrix<double, 2, 4> texel_from_world = Eigen::Matrix<double, 2, 4>::Zero();
-  bool has_texture = false;
-};
-
-TexelMap FitTexelMap(const PolygonModel& model, int face, const FaceTexture& texture) {
-  TexelMap map;
-  const std::vector<int>& corners = model.faces[face].points;
-  if (texture.page < 0 || texture.corners_texel.size() != corners.size()) return map;
-  // The corners lie in a plane, so the least-norm solution about their centre is the map in it.
-  const int n = static_cast<int>(corners.size());
-  Eigen::MatrixXd points(n, 3);
-  Eigen::MatrixXd texels(n, 2);
-  for (int i = 0; i < n; ++i) {
-    points.row(i) = model.points_in_world[corners[i]];
-    texels.row(i) = texture.corners_texel[i];
-  }
-  const Eigen::RowVector3d point_center = points.colwise().mean();
-  const Eigen::RowVector2d texel_center = texels.colwise().mean();
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(points.rowwise() - point_center,
-                                        Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(1e-6);
-  const Eigen::MatrixXd linear = svd.solve(texels.rowwise() - texel_center);
-  map.texel_from_world.leftCols<3>() = linear.transpose();
-  map.texel_from_world.col(3) =
-      texel_center.transpose() - linear.transpose() * point_center.transpose();
-  map.has_texture = true;
-  return map;
 }
 
 }  // namespace
@@ -184,7 +160,7 @@ Image8 CoveredPixels(const TexturedModel& model, const Camera& camera) {
         continue;
       }
       const Eigen::Vector3d point = position + hit->distance * direction;
-      const Eigen::Vector2d texel = maps[hit->face].texel_from_world * point.homogeneous();
+      const Eigen::Vector2d texel = maps[hit->face].TexelAt(point);
       const int u = std::clamp(static_cast<int>(texel.x()), 0, page.provenance.width - 1);
       const int v = std::clamp(static_cast<int>(texel.y()), 0, page.provenance.height - 1);
       if (*page.provenance.At(u, v) != kProvenanceNone) *covered.At(x, y) = 255;
@@ -200,7 +176,7 @@ Evaluation Evaluate(const fs::path& found,
   Evaluation evaluation;
   EvaluateCameras(found, truth, model, evaluation);
   EvaluateMasks(found, truth, model, evaluation);
-  EvaluateNovelViews(found, truth, options, evaluation);
+  EvaluateTextures(found, truth, options, evaluation);
   return evaluation;
 }
 

@@ -4,6 +4,7 @@
 
 #include "datasets-synthetic/camera_errors.h"
 #include "datasets-synthetic/picture_measures.h"
+#include "datasets-synthetic/texel_truth.h"
 #include "datasets-synthetic/truth.h"
 #include "scene/polygon_model.h"
 #include "scene/registration.h"
@@ -24,6 +25,7 @@ struct PhotographEvaluation {
   // Where registration.json tells them: verdict, claimed standard deviations (order and units of
   // kCameraParameterNames), and whether the truth lies inside the covariance's 95 % ellipsoid.
   std::optional<Verdict> verdict;
+  std::optional<double> start_px;  // vertex error of the tag as measured
   std::optional<CameraParameters> sigmas;
   std::optional<Calibration> calibration;
   bool is_wrong_accepted = false;
@@ -52,11 +54,12 @@ struct Evaluation {
   // Automatic masks against the true ones over all photographs; empty if there are none.
   std::vector<MaskOverlap> faces;
   std::vector<NovelViewEvaluation> novel_views;
+  std::optional<TexelErrors> texels;
 };
 
 struct EvaluateOptions {
-  // How a textured model is drawn; what has no texture may have any colour. Novel views are left
-  // out if empty.
+  // How a textured model is drawn; what has no texture may have any colour. Textures are not
+  // judged if empty.
   std::function<Image8(const TexturedModel&, const Camera&)> render;
 };
 

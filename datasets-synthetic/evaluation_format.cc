@@ -149,6 +149,12 @@ std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonMod
                     view.errors.ssim,
                     100 * view.errors.coverage);
   }
+  if (evaluation.texels) {
+    text += Printed("texels: RMS %.2f levels of 255 over %ld covered of %ld samples\n",
+                    evaluation.texels->rms_levels,
+                    evaluation.texels->num_covered,
+                    evaluation.texels->num_samples);
+  }
   return text;
 }
 
@@ -162,6 +168,7 @@ std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonMode
     if (photograph.verdict) entry["verdict"] = std::string(VerdictName(*photograph.verdict));
     entry["wrong_accepted"] = photograph.is_wrong_accepted;
     entry["vertex_error_px"] = photograph.errors.vertex.mean_px;
+    if (photograph.start_px) entry["start_px"] = *photograph.start_px;
     entry["vertex_error_max_px"] = photograph.errors.vertex.max_px;
     entry["num_points"] = photograph.errors.vertex.num_points;
     entry["position_error"] = photograph.errors.position;
@@ -197,6 +204,12 @@ std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonMode
                                    {"coverage", view.errors.coverage},
                                    {"num_pixels", view.errors.num_pixels},
                                    {"gain", view.errors.gain}});
+  }
+  if (evaluation.texels) {
+    json["texels"] = {{"rms_levels", evaluation.texels->rms_levels},
+                      {"num_samples", evaluation.texels->num_samples},
+                      {"num_covered", evaluation.texels->num_covered},
+                      {"gain", evaluation.texels->gain}};
   }
   return json.dump(2) + "\n";
 }

@@ -246,6 +246,16 @@ Appearance GrainyAppearance(const Surface& surface,
   return {surface.color * static_cast<float>(std::max(0.05, factor)), 0};
 }
 
+// Blotches without a single line, which reach full strength 3 ft inside a rectangular face's border
+// and have died out a foot before it: nothing near an edge of the model pulls at that edge.
+Appearance PanelAppearance(const Surface& surface, const Place& at) {
+  const double inside = std::min(std::min(at.u - surface.low_u, surface.high_u - at.u),
+                                 std::min(at.v - surface.low_v, surface.high_v - at.v));
+  const double ramp = std::clamp((inside - 1) / 2, 0.0, 1.0);
+  const double strength = 0.25 * ramp * ramp * (3 - 2 * ramp);
+  return {surface.color * static_cast<float>(1 + strength * Noise(surface, 1, at, 0.3, 4)), 0};
+}
+
 Appearance BareAppearance(const Surface& surface, const Place& at) {
   switch (surface.material) {
     case Material::kTile:
@@ -276,6 +286,10 @@ Appearance BareAppearance(const Surface& surface, const Place& at) {
       return GrainyAppearance(surface, at, 3, 0.5);
     case Material::kBark:
       return GrainyAppearance(surface, at, 4, 0.5);
+    case Material::kEven:
+      return {surface.color, 0};
+    case Material::kPanel:
+      return PanelAppearance(surface, at);
     case Material::kPlain:
       return GrainyAppearance(surface, at, 0.7, 0.05);
   }

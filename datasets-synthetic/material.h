@@ -31,6 +31,8 @@ enum class Material {
   kPlain,   // paint or metal
   kFoliage,
   kBark,
+  kEven,   // one colour
+  kPanel,  // one even colour, with soft blotches that fade out before the border of a rectangle
 };
 
 // A picture stuck on a wall: lettering, a poster. Transparent where alpha is 0.
@@ -60,6 +62,9 @@ struct Surface {
   double high_u = 0;
   std::vector<Decal> decals;
   int mask_code = 0;  // for things that are not in the model and stand in the way; else 0
+  // Part of the building that lies elsewhere than the model says, or is not in it: a deep window,
+  // its reveals and sill, a corner that is really round.
+  bool is_relief = false;
 
   Eigen::Vector2d TextureOf(const Eigen::Vector3d& point_in_world) const {
     return {axis_u.dot(point_in_world) + offset_u, axis_v.dot(point_in_world) + offset_v};

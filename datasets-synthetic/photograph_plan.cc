@@ -10,6 +10,10 @@
 
 namespace groundglass {
 
+std::string PictureFileName(const PhotographPlan& plan, const SynthRecipe& recipe) {
+  return plan.name + (recipe.photo.bits == 16 ? ".tif" : ".jpg");
+}
+
 PhotographPlan PlanPhotograph(const PlannedView& view, const SynthRecipe& recipe, int index) {
   PhotographPlan plan;
   plan.name = view.name;
@@ -42,8 +46,22 @@ PhotographPlan PlanPhotograph(const PlannedView& view, const SynthRecipe& recipe
   plan.photometry.grain = recipe.photo.grain * (0.7 + 0.6 * UniformOf(HashOf(photo_seed, 4)));
   plan.photometry.blur_px = recipe.photo.blur_px * (0.8 + 0.4 * UniformOf(HashOf(photo_seed, 5)));
 
+  const double unit_px = recipe.width_px / 1500.0;
+  if (UniformOf(HashOf(photo_seed, 6)) < recipe.photo.spoilt_share) {
+    const double strength = unit_px * (0.6 + 0.8 * UniformOf(HashOf(photo_seed, 7)));
+    if (UniformOf(HashOf(photo_seed, 8)) < 0.5) {
+      plan.photometry.motion_px = strength * recipe.photo.motion_px;
+      plan.photometry.motion_deg = 180 * UniformOf(HashOf(photo_seed, 9));
+    } else {
+      plan.photometry.defocus_px = strength * recipe.photo.defocus_px;
+    }
+  }
+
   const uint64_t light_seed = SeedFor(recipe.seed, "light", index);
-  if (UniformOf(HashOf(light_seed, 0)) < recipe.photo.sunny_share) {
+  const std::string& lights = recipe.photo.light;
+  const bool is_sunny = lights.empty() ? UniformOf(HashOf(light_seed, 0)) < recipe.photo.sunny_share
+                                       : lights[static_cast<size_t>(index) % lights.size()] == 's';
+  if (is_sunny) {
     // People photograph with the sun behind them or to one side: never far into it.
     const Eigen::Vector3d away =
         plan.entry.actual.position_in_site - plan.entry.actual.lookat_in_site;

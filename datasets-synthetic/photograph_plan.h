@@ -25,9 +25,13 @@ struct PhotographPlan {
   double sun_elevation_deg = 0;
   int num_specks = 0;
   int num_scratches = 0;
-  Camera camera;          // the scan's: the slide's transform folded in
-  Camera written_camera;  // the picture's as written: resampled if it went through video
+  Blunder blunder = Blunder::kNone;  // in the tag
+  Camera camera;                     // the scan's: the slide's transform folded in
+  Camera written_camera;             // the picture's as written: resampled if it went through video
 };
+
+// The file of a photograph in images/: JPEG, or TIFF for 16 bits.
+std::string PictureFileName(const PhotographPlan& plan, const SynthRecipe& recipe);
 
 // Draws what the recipe leaves to chance for the `index`-th photograph of its seed.
 PhotographPlan PlanPhotograph(const PlannedView& view, const SynthRecipe& recipe, int index);

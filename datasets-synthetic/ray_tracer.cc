@@ -203,10 +203,7 @@ class Tracer {
     const Daylight& light = scene_.light;
     const auto sky_share =
         static_cast<float>(scene_.sky_map.SkyShare(surface, face, texture.x(), texture.y()));
-    Rgb irradiance = sky_share * light.sky;
-    // What is not sky is ground and walls, which send back a part of what they get.
-    irradiance += (1 - sky_share) *
-                  (0.17f * light.sky + 0.16f * light.sun * static_cast<float>(light.to_sun.z()));
+    Rgb irradiance = IndirectIrradiance(light, sky_share);
     if (in_sun)
       irradiance += static_cast<float>(std::max(0.0, normal.dot(light.to_sun))) * light.sun;
     Rgb color = appearance.albedo.cwiseProduct(irradiance);

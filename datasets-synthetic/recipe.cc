@@ -23,11 +23,14 @@ void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("height", recipe.height_px);
   visit("views", recipe.num_views);
   visit("seed", recipe.seed);
+  visit("relief", recipe.relief);
+  visit("plain", recipe.is_plain);
   visit("notebook/sigma_position", recipe.notebook.sigma_position);
   visit("notebook/sigma_height", recipe.notebook.sigma_height);
   visit("notebook/sigma_lookat", recipe.notebook.sigma_lookat);
   visit("notebook/sigma_roll_deg", recipe.notebook.sigma_roll_deg);
   visit("notebook/tape", recipe.notebook.tape);
+  visit("notebook/blunders", recipe.notebook.blunders);
   visit("slide/sigma_shift", recipe.slide.sigma_shift);
   visit("slide/sigma_turn_deg", recipe.slide.sigma_turn_deg);
   visit("slide/sigma_scale", recipe.slide.sigma_scale);
@@ -42,7 +45,12 @@ void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("photo/max_vignetting", recipe.photo.max_vignetting);
   visit("photo/grain", recipe.photo.grain);
   visit("photo/blur_px", recipe.photo.blur_px);
+  visit("photo/spoilt_share", recipe.photo.spoilt_share);
+  visit("photo/motion_px", recipe.photo.motion_px);
+  visit("photo/defocus_px", recipe.photo.defocus_px);
   visit("photo/ntsc", recipe.photo.ntsc);
+  visit("photo/bits", recipe.photo.bits);
+  visit("photo/light", recipe.photo.light);
   visit("occluders/trees", recipe.occluders.trees);
   visit("occluders/lamps", recipe.occluders.lamps);
   visit("occluders/signs", recipe.occluders.signs);
@@ -73,6 +81,13 @@ void SynthRecipe::Check() const {
     throw Error("recipe field faces must be 300 to 30000");
   }
   if (num_views < 0) throw Error("recipe field views must not be negative");
+  if (relief > 2) throw Error("recipe field relief must be at most 2");
+  if (notebook.blunders < 0) throw Error("recipe field notebook/blunders must not be negative");
+  if (photo.spoilt_share > 1) throw Error("recipe field photo/spoilt_share must be at most 1");
+  if (photo.bits != 8 && photo.bits != 16) throw Error("recipe field photo/bits must be 8 or 16");
+  if (photo.light.find_first_not_of("so") != std::string::npos) {
+    throw Error("recipe field photo/light is made of s and o, for sun and overcast");
+  }
   if (photo.sunny_share > 1) throw Error("recipe field photo/sunny_share must be at most 1");
   if (photo.max_vignetting > 1) throw Error("recipe field photo/max_vignetting must be at most 1");
 }
@@ -80,7 +95,7 @@ void SynthRecipe::Check() const {
 std::vector<SynthPreset> ListSynthPresets() {
   return {
       {"wiesner", "white tiled modernist block, 88 faces, feet, 23 slides as the thesis took them"},
-      {"pure", "the same without any nuisance: exact tags, overcast, no grain, no slide errors"},
+      {"pure", "the same building as its model is, without any nuisance: plain faces, exact tags"},
       {"ntsc", "wiesner digitised through NTSC video: 640x480, pixels that are not square"},
       {"brick", "gabled brick hall with stone trim and slate roofs, 16 slides"},
       {"cityblock", "six buildings with every window in the model, 1,000 faces, 22 slides"},
@@ -95,6 +110,8 @@ SynthRecipe PresetRecipe(const std::string& preset) {
   if (preset == "wiesner") return recipe;
   if (preset == "brick" || preset == "cityblock") {
     recipe.building = preset;
+    // A city block shows scale: its model has every window, and it is what the model says.
+    if (preset == "cityblock") recipe.relief = 0;
     return recipe;
   }
   if (preset == "ntsc") {
@@ -112,13 +129,16 @@ SynthRecipe PresetRecipe(const std::string& preset) {
     recipe.photo.max_vignetting = 1;
     recipe.photo.grain = 0.022;
     recipe.photo.blur_px = 0.9;
+    recipe.photo.spoilt_share = 0.3;
     recipe.occluders = {.trees = 9, .lamps = 12, .signs = 5, .cars = 2, .people = 4};
     return recipe;
   }
   if (preset == "pure") {
+    recipe.relief = 0;
+    recipe.is_plain = true;
     recipe.slide = {0, 0, 0, 0, 0, 0, 0};
-    recipe.notebook = {0, 0, 0, 0, 0};
-    recipe.photo = {0, 0, 0, 0, 0, 0, false};
+    recipe.notebook = {0, 0, 0, 0, 0, 0};
+    recipe.photo = {0, 0, 0, 0, 0, 0, 0, 0, 0, false, 8, ""};
     recipe.occluders = {};
     return recipe;
   }

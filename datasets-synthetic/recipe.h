@@ -19,6 +19,11 @@ struct SynthRecipe {
   int height_px = 1000;
   // How many of the building's planned views are taken; 0 for all.
   int num_views = 0;
+  // How deep the photographed building's windows lie, and whether its rounded corners are round,
+  // which the model leaves out; 1: as the building is, 0: the building is its model.
+  double relief = 1;
+  // Every face in one even colour: nothing but the model's own edges.
+  bool is_plain = false;
   uint64_t seed = 1988;
 
   // The notebook: one standard deviation of what was measured, and what a tape resolves, in the
@@ -29,6 +34,9 @@ struct SynthRecipe {
     double sigma_lookat = 0.3;
     double sigma_roll_deg = 0.3;
     double tape = 0.1;
+    // How many of the tags hold a blunder: swapped coordinates, a wrong sign, another photograph's
+    // numbers. Marked in truth.json.
+    int blunders = 0;
   } notebook;
 
   // Mount and scanner, one standard deviation each.
@@ -55,8 +63,17 @@ struct SynthRecipe {
     double max_vignetting = 0.8;
     double grain = 0.012;
     double blur_px = 0.6;
+    // How many of the photographs were shaken or out of focus, half and half; how far a point
+    // travels, and the radius that it spreads to, in pixels at 1500 wide.
+    double spoilt_share = 0.12;
+    double motion_px = 5;
+    double defocus_px = 2.5;
     // Digitised as an NTSC frame, 640 x 480 whatever the size of the scan.
     bool ntsc = false;
+    // 8: JPEG; 16: TIFF with 16 bits.
+    int bits = 8;
+    // The light of each photograph in turn: s for sun, o for overcast; empty for chance.
+    std::string light;
   } photo;
 
   // What stands in the way and is not in the model.

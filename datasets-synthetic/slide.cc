@@ -32,7 +32,43 @@ cv::Mat MakeGrain(int width, int height, uint64_t seed) {
   cv::GaussianBlur(grain, grain, {5, 5}, kClump, kClump, cv::BORDER_REFLECT);
   // The blur has lowered the deviation by the root of its kernel's sum of squares, in both ways.
   const cv::Mat kernel = cv::getGaussianKernel(5, kClump, CV_64F);
-  return grain / kernel.dot(kernel);
+  grain /= kernel.dot(kernel);
+  return grain;
+}
+
+// A kernel of odd size from how much of each of its pixels a shape covers, by 8 x 8 samples of
+// `is_inside`, symmetric about the centre so that nothing moves.
+template <typename Inside>
+cv::Mat KernelOf(double reach_px, const Inside& is_inside) {
+  constexpr int kSamples = 8;
+  const int half = static_cast<int>(std::ceil(reach_px));
+  cv::Mat kernel(2 * half + 1, 2 * half + 1, CV_32F);
+  for (int y = -half; y <= half; ++y) {
+    for (int x = -half; x <= half; ++x) {
+      int count = 0;
+      for (int i = 0; i < kSamples * kSamples; ++i) {
+        count += is_inside(x + (i % kSamples + 0.5) / kSamples - 0.5,
+                           y + (i / kSamples + 0.5) / kSamples - 0.5);
+      }
+      kernel.at<float>(y + half, x + half) = static_cast<float>(count);
+    }
+  }
+  return kernel / cv::sum(kernel)[0];
+}
+
+cv::Mat DiscKernel(double radius_px) {
+  return KernelOf(radius_px + 0.5,
+                  [&](double x, double y) { return std::hypot(x, y) <= radius_px; });
+}
+
+// A line one pixel wide.
+cv::Mat MotionKernel(double length_px, double angle_deg) {
+  const double angle = RadiansFromDegrees(angle_deg);
+  return KernelOf(length_px / 2 + 1, [&](double x, double y) {
+    const double along = std::cos(angle) * x + std::sin(angle) * y;
+    const double across = -std::sin(angle) * x + std::cos(angle) * y;
+    return std::abs(along) <= length_px / 2 && std::abs(across) <= 0.5;
+  });
 }
 
 }  // namespace
@@ -64,13 +100,13 @@ Camera FoldInSlide(const Camera& ideal, const SlideTransform& slide) {
   return camera;
 }
 
-Image8 DevelopPhotograph(const ImageF& radiance,
+ImageF DevelopPhotograph(ImageF radiance,
                          const Camera& camera,
                          const Photometry& photometry,
                          uint64_t seed) {
   const int width = radiance.width;
   const int height = radiance.height;
-  cv::Mat exposed(height, width, CV_32FC3);
+  cv::Mat picture(height, width, CV_32FC3, radiance.values.data());
   const double exposure = std::exp2(photometry.exposure_stops);
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
@@ -79,32 +115,48 @@ Image8 DevelopPhotograph(const ImageF& radiance,
       const double cosine_squared = 1 / (1 + tangent_x * tangent_x + tangent_y * tangent_y);
       const double falloff = std::lerp(1.0, cosine_squared * cosine_squared, photometry.vignetting);
       for (int c = 0; c < 3; ++c) {
-        exposed.at<cv::Vec3f>(y, x)[c] = static_cast<float>(radiance.At(x, y)[c] * exposure *
-                                                            falloff * photometry.white_balance[c]);
+        float& value = radiance.At(x, y)[c];
+        value = static_cast<float>(value * exposure * falloff * photometry.white_balance[c]);
       }
     }
   });
+  if (photometry.motion_px > 0) {
+    const cv::Mat kernel = MotionKernel(photometry.motion_px, photometry.motion_deg);
+    cv::filter2D(picture, picture, -1, kernel, {-1, -1}, 0, cv::BORDER_REFLECT);
+  }
+  if (photometry.defocus_px > 0) {
+    const cv::Mat kernel = DiscKernel(photometry.defocus_px);
+    cv::filter2D(picture, picture, -1, kernel, {-1, -1}, 0, cv::BORDER_REFLECT);
+  }
   if (photometry.blur_px > 0) {
     cv::GaussianBlur(
-        exposed, exposed, {0, 0}, photometry.blur_px, photometry.blur_px, cv::BORDER_REFLECT);
+        picture, picture, {0, 0}, photometry.blur_px, photometry.blur_px, cv::BORDER_REFLECT);
   }
   cv::Mat grain;
   if (photometry.grain > 0) grain = MakeGrain(width, height, seed);
-  Image8 srgb8(width, height, 3);
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < 3; ++c) {
-        const float light = std::clamp(exposed.at<cv::Vec3f>(y, x)[c], 0.0f, 1.0f);
-        double encoded = SrgbFromLinear(light);
+        float& value = radiance.At(x, y)[c];
+        double encoded = SrgbFromLinear(std::clamp(value, 0.0f, 1.0f));
         if (!grain.empty()) {
           // Grain is strongest in the middle tones.
           const double strength = photometry.grain * (0.4 + 2.4 * encoded * (1 - encoded));
           encoded += strength * grain.at<cv::Vec3f>(y, x)[c];
         }
-        srgb8.At(x, y)[c] = static_cast<uint8_t>(std::clamp(encoded * 255 + 0.5, 0.0, 255.0));
+        value = static_cast<float>(std::clamp(encoded, 0.0, 1.0));
       }
     }
   });
+  return radiance;
+}
+
+Image8 QuantiseSrgb8(const ImageF& encoded) {
+  Image8 srgb8(encoded.width, encoded.height, encoded.channels);
+  std::transform(
+      encoded.values.begin(), encoded.values.end(), srgb8.values.begin(), [](float value) {
+        return static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f);
+      });
   return srgb8;
 }
 

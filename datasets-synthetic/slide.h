@@ -37,12 +37,21 @@ struct Photometry {
   double vignetting = 0;  // 1: light falls off as the fourth power of the cosine
   double grain = 0;       // standard deviation of the encoded value at mid grey, of [0, 1]
   double blur_px = 0;     // of lens and film, one standard deviation
+  // The camera was shaken: every point travels this far, half of it before the middle of the
+  // exposure, at this angle clockwise from the picture's x axis.
+  double motion_px = 0;
+  double motion_deg = 0;
+  double defocus_px = 0;  // radius of the disc that a point out of focus becomes
 };
 
-// The developed and scanned picture: sRGB, 3 channels. Vignetting is about the scan's centre.
-Image8 DevelopPhotograph(const ImageF& radiance,
+// The developed and scanned picture from its radiance: encoded sRGB in [0, 1], 3 channels.
+// Vignetting is about the scan's centre. Works in the radiance's own memory: move it in.
+ImageF DevelopPhotograph(ImageF radiance,
                          const Camera& camera,
                          const Photometry& photometry,
                          uint64_t seed);
+
+// Encoded values to 8-bit codes.
+Image8 QuantiseSrgb8(const ImageF& encoded);
 
 }  // namespace groundglass

@@ -5,8 +5,9 @@
 #include "datasets-synthetic/buildings.h"
 #include "datasets-synthetic/digitizer.h"
 #include "datasets-synthetic/noise.h"
-#include "datasets-synthetic/photograph_plan.h"
+#include "datasets-synthetic/planned_scene.h"
 #include "datasets-synthetic/ray_tracer.h"
+#include "datasets-synthetic/texel_truth.h"
 #include "datasets-synthetic/truth_json.h"
 #include "scene/atomic_file.h"
 #include "scene/colmap_io.h"
@@ -25,12 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Subject MakeSubject(const SynthRecipe& recipe) {
-  if (recipe.building == "brick") return MakeBrickHall(recipe.seed);
-  if (recipe.building == "cityblock") return MakeCityBlock(recipe.seed, recipe.num_faces);
-  return MakeWiesner(recipe.seed);
-}
-
 std::string ViewComment(const std::string& name, const std::string& spot) {
   std::string comment = "File: " + name + ".view";
   if (!spot.empty()) comment += "\n" + spot;
@@ -43,11 +38,13 @@ void CheckFolderIsFree(const fs::path& folder) {
   }
 }
 
-// The face or the thing that each pixel's centre shows: the model's faces from 1, the codes of
-// what stands before it, 0 for the ground, the sky and the distance.
+// The face or the thing that each pixel's centre shows: where the building is seen, relief and all,
+// the model's face there (`model_labels`, from 1); the codes of what stands before it; 0 for the
+// ground, the sky and the distance.
 Image16 OccludedLabels(const SyntheticWorld& world,
                        const Visibility& visibility,
                        const Camera& camera,
+                       const Image16& model_labels,
                        int code_offset) {
   Image16 labels(camera.width_px, camera.height_px, 1);
   const Eigen::Vector3d position = camera.PositionInWorld();
@@ -55,11 +52,11 @@ Image16 OccludedLabels(const SyntheticWorld& world,
     for (int x = 0; x < camera.width_px; ++x) {
       const auto hit = visibility.FirstHit(position, UnprojectToWorld(camera, {x + 0.5, y + 0.5}));
       if (!hit) continue;
-      const int code = world.surfaces[hit->face].mask_code;
-      if (code != 0) {
-        *labels.At(x, y) = static_cast<uint16_t>(code + code_offset);
-      } else if (hit->face < world.num_model_faces && hit->is_front) {
-        *labels.At(x, y) = static_cast<uint16_t>(hit->face + 1);
+      const Surface& surface = world.surfaces[hit->face];
+      if (surface.mask_code != 0) {
+        *labels.At(x, y) = static_cast<uint16_t>(surface.mask_code + code_offset);
+      } else if (hit->face < world.num_model_faces || surface.is_relief) {
+        *labels.At(x, y) = *model_labels.At(x, y);
       }
     }
   });
@@ -90,11 +87,14 @@ void WritePhotograph(const SynthRecipe& recipe,
                      int code_offset,
                      const fs::path& folder) {
   const auto seed = [&](const char* purpose) { return SeedFor(recipe.seed, purpose, index); };
-  const ImageF radiance = RenderRadiance(scene, plan.camera, seed("rays"));
-  Image8 picture = DevelopPhotograph(radiance, plan.camera, plan.photometry, seed("grain"));
+  ImageF picture = DevelopPhotograph(RenderRadiance(scene, plan.camera, seed("rays")),
+                                     plan.camera,
+                                     plan.photometry,
+                                     seed("grain"));
   DrawDust(plan.num_specks, plan.num_scratches, seed("dust"), picture);
+  const Image16 model_labels = model_visibility.FaceLabels(plan.written_camera);
   Image16 occluded =
-      OccludedLabels(scene.world, scene.visibility, plan.written_camera, code_offset);
+      OccludedLabels(scene.world, scene.visibility, plan.written_camera, model_labels, code_offset);
   if (recipe.slide.mount_margin > 0) {
     const MountOpening opening{recipe.slide.mount_margin * recipe.width_px};
     DrawMount(opening, plan.slide, picture);
@@ -102,10 +102,17 @@ void WritePhotograph(const SynthRecipe& recipe,
   }
   if (recipe.photo.ntsc) picture = NtscFromScan(picture, seed("video"));
   const fs::path truth = folder / "truth";
-  WriteSrgb8(folder / "images" / (plan.name + ".jpg"), picture);
-  WriteLabels(truth / "masks_model" / (plan.name + ".png"),
-              model_visibility.FaceLabels(plan.written_camera));
+  WriteLabels(truth / "masks_model" / (plan.name + ".png"), model_labels);
   WriteLabels(truth / "masks_occ" / (plan.name + ".png"), occluded);
+  const fs::path file = folder / "images" / PictureFileName(plan, recipe);
+  if (recipe.photo.bits == 8) {
+    WriteSrgb8(file, QuantiseSrgb8(picture));
+    return;
+  }
+  // The writer encodes what is linear, and so back to the scan's own values.
+  std::transform(
+      picture.values.begin(), picture.values.end(), picture.values.begin(), LinearFromSrgb);
+  WriteRadiance(file, picture, {.bits = 16});
 }
 
 // Clean, exact and overcast, with nothing in the way.
@@ -123,8 +130,12 @@ void WriteNovelView(const SynthRecipe& recipe,
   WriteFileAtomically(
       folder / (view.name + ".view"),
       FormatView(tag, ViewComment(view.name, "Held out: exact, and no slide errors")));
-  const ImageF radiance = RenderRadiance(scene, camera, SeedFor(recipe.seed, view.name));
-  WriteSrgb8(folder / (view.name + ".png"), DevelopPhotograph(radiance, camera, Photometry(), 0));
+  WriteSrgb8(folder / (view.name + ".png"),
+             QuantiseSrgb8(
+                 DevelopPhotograph(RenderRadiance(scene, camera, SeedFor(recipe.seed, view.name)),
+                                   camera,
+                                   Photometry(),
+                                   0)));
   WriteLabels(folder / (view.name + "_faces.png"), model_visibility.FaceLabels(camera));
 }
 
@@ -151,7 +162,7 @@ void WriteDocuments(const SynthRecipe& recipe,
                       FormatTruth(recipe, model, plans, novel_views));
   std::vector<NamedCamera> cameras;
   for (const PhotographPlan& plan : plans) {
-    cameras.push_back({plan.name + ".jpg", plan.written_camera});
+    cameras.push_back({PictureFileName(plan, recipe), plan.written_camera});
     WriteFileAtomically(folder / "views" / (plan.name + ".view"),
                         FormatView(plan.entry.measured, ViewComment(plan.name, plan.comment)));
   }
@@ -165,29 +176,38 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
                                  const Progress& progress) {
   recipe.Check();
   CheckFolderIsFree(folder);
-  Subject subject = MakeSubject(recipe);
-  const PolygonModel model = subject.world.Model();
-  if (recipe.num_views > 0 && recipe.num_views < static_cast<int>(subject.views.size())) {
-    subject.views.resize(recipe.num_views);
-  }
+  const PlannedScene planned = PlanScene(recipe);
+  const PolygonModel& model = planned.model;
+  const std::vector<PhotographPlan>& plans = planned.photographs;
   SynthSummary summary;
-  std::vector<PhotographPlan> plans;
-  for (size_t i = 0; i < subject.views.size(); ++i) {
-    plans.push_back(PlanPhotograph(subject.views[i], recipe, static_cast<int>(i)));
-    summary.mean_tag_error_px +=
-        MeasureTagError(model, plans.back()).mean_px / static_cast<double>(subject.views.size());
-  }
   summary.num_faces = static_cast<int>(model.faces.size());
   summary.num_photographs = static_cast<int>(plans.size());
-  summary.num_novel_views = static_cast<int>(subject.novel_views.size());
-  WriteDocuments(recipe, model, plans, subject.novel_views, folder);
+  summary.num_novel_views = static_cast<int>(planned.novel_views.size());
+  for (const PhotographPlan& plan : plans) {
+    summary.num_blunders += plan.blunder != Blunder::kNone;
+    if (plan.blunder == Blunder::kNone) {
+      summary.mean_tag_error_px += MeasureTagError(model, plan).mean_px;
+    }
+  }
+  summary.mean_tag_error_px /= std::max(1, summary.num_photographs - summary.num_blunders);
+  WriteDocuments(recipe, model, plans, planned.novel_views, folder);
 
   const Visibility model_visibility(model);
-  const Visibility clean_visibility(subject.world.geometry);
+  const Visibility clean_visibility(planned.world.geometry);
   const Box bounds = ComputeBounds(model);
-  const SkyMap sky_map(subject.world, clean_visibility, bounds.Center(), 1.5 * bounds.Diagonal());
+  const SkyMap sky_map(planned.world, clean_visibility, bounds.Center(), 1.5 * bounds.Diagonal());
+  const Daylight overcast = MakeOvercast(SeedFor(recipe.seed, "novel"));
+  constexpr int kNumTexelSamples = 12000;
+  WriteFileAtomically(folder / "truth" / "texels.csv",
+                      FormatTexels(SampleTexels(planned.world,
+                                                model,
+                                                clean_visibility,
+                                                sky_map,
+                                                overcast,
+                                                kNumTexelSamples,
+                                                recipe.seed)));
   const OccluderSite site = SiteOf(model, plans);
-  SyntheticWorld furnished = subject.world;
+  SyntheticWorld furnished = planned.world;
   WorldBuilder furnisher(furnished, SeedFor(recipe.seed, "occluders"));
   AddStandingOccluders(furnisher, site, recipe.occluders, recipe.seed);
 
@@ -213,16 +233,36 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
                     folder);
     if (progress) progress(++num_done, num_steps, plan.name);
   }
-  for (const PlannedView& view : subject.novel_views) {
-    const Daylight overcast = MakeOvercast(SeedFor(recipe.seed, "novel"));
+  for (const PlannedView& view : planned.novel_views) {
     WriteNovelView(recipe,
                    view,
-                   {subject.world, clean_visibility, sky_map, overcast},
+                   {planned.world, clean_visibility, sky_map, overcast},
                    model_visibility,
                    folder / "truth" / "novel");
     if (progress) progress(++num_done, num_steps, view.name);
   }
   return summary;
+}
+
+Image8 RenderPresetPicture(const SynthRecipe& recipe) {
+  recipe.Check();
+  const PlannedScene planned = PlanScene(recipe);
+  const PhotographPlan& plan = planned.photographs.front();
+  const Visibility visibility(planned.world.geometry);
+  const Box bounds = ComputeBounds(planned.model);
+  const SkyMap sky_map(planned.world, visibility, bounds.Center(), 1.5 * bounds.Diagonal());
+  SyntheticWorld world = planned.world;
+  WorldBuilder builder(world, SeedFor(recipe.seed, "occluders"));
+  AddStandingOccluders(
+      builder, SiteOf(planned.model, planned.photographs), recipe.occluders, recipe.seed);
+  const Visibility furnished(world.geometry);
+  ImageF picture =
+      DevelopPhotograph(RenderRadiance({world, furnished, sky_map, plan.light}, plan.camera, 1),
+                        plan.camera,
+                        plan.photometry,
+                        2);
+  if (recipe.photo.ntsc) picture = NtscFromScan(picture, 3);
+  return QuantiseSrgb8(picture);
 }
 
 }  // namespace groundglass

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "datasets-synthetic/recipe.h"
+#include "scene/image.h"
 #include "scene/progress.h"
 
 #include <filesystem>
@@ -13,7 +14,8 @@ struct SynthSummary {
   int num_faces = 0;
   int num_photographs = 0;
   int num_novel_views = 0;
-  double mean_tag_error_px = 0;  // the hand tags' mean vertex error
+  int num_blunders = 0;          // among the hand tags
+  double mean_tag_error_px = 0;  // the others' mean vertex error
 };
 
 // Makes a scene with known answers and writes it as a scene folder with its truth: model.osu,
@@ -22,5 +24,8 @@ struct SynthSummary {
 SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
                                  const std::filesystem::path& folder,
                                  const Progress& progress = {});
+
+// A picture of what a recipe makes: its first photograph without those who pass, sRGB.
+Image8 RenderPresetPicture(const SynthRecipe& recipe);
 
 }  // namespace groundglass

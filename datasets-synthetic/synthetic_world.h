@@ -20,7 +20,16 @@ struct SyntheticWorld {
   std::vector<Surface> surfaces;  // one for each of the geometry's faces
   int num_model_faces = 0;        // the first ones
 
-  // The model that people get: the first faces and the points that they use.
+  // A rounded corner, which the model has as three flat faces between tangent points, given
+  // counterclockwise seen from above.
+  struct RoundCorner {
+    std::array<int, 3> faces = {-1, -1, -1};
+    Eigen::Vector2d center_in_world = Eigen::Vector2d::Zero();
+  };
+  std::vector<RoundCorner> round_corners;
+
+  // The model that people get: the first faces and the points that they use. Ask for it before
+  // relief moves the geometry away from it.
   PolygonModel Model() const;
 };
 

@@ -43,6 +43,43 @@ ViewTag DrawTag(const Camera& true_camera,
   return tag;
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TrialBin CountTrials(const std::vector<Trial>& trials, double low_px, double high_px) {
+  TrialBin bin;
+  bin.low_px = low_px;
+  bin.high_px = high_px;
+  bin.count = static_cast<int>(trials.size());
+  std::vector<double> ends;
+  for (const Trial& trial : trials) {
+    ends.push_back(trial.end_at_640_px);
+    bin.num_within_1_px += trial.end_at_640_px <= 1;
+    bin.num_within_3_px += trial.end_at_640_px <= 3;
+    bin.num_accepted += trial.verdict == Verdict::kAccepted;
+    bin.num_wrong_accepted += trial.is_wrong_accepted;
+    bin.num_calibrated += trial.is_calibrated;
+    bin.num_inside_95 += trial.is_inside_95;
+  }
+  if (ends.empty()) return bin;
+  std::sort(ends.begin(), ends.end());
+  bin.median_end_px = ends[ends.size() / 2];
+  return bin;
+}
+
+nlohmann::ordered_json JsonFromBin(const TrialBin& bin) {
+  return {{"count", bin.count},
+          {"within_1_px", bin.num_within_1_px},
+          {"within_3_px", bin.num_within_3_px},
+          {"accepted", bin.num_accepted},
+          {"wrong_accepted", bin.num_wrong_accepted},
+          {"calibrated", bin.num_calibrated},
+          {"inside_95", bin.num_inside_95},
+          {"median_px_at_640", bin.median_end_px}};
+}
+
+constexpr Blunder kBlunderKinds[] = {
+    Blunder::kSwappedCoordinates, Blunder::kWrongSign, Blunder::kWrongPhotograph, Blunder::kNone};
+
 double ShareInPercent(int part, int whole) { return whole > 0 ? 100.0 * part / whole : 0; }
 
 }  // namespace
@@ -52,6 +89,7 @@ void TrialOptions::Check() const {
   for (const double sigma : {sigma_position, sigma_height, sigma_lookat}) {
     if (!(sigma > 0)) throw Error("the trials' sigmas must be above 0");
   }
+  if (num_blunders < 0) throw Error("the number of blunders must not be negative");
   registration.Check();
 }
 
@@ -79,6 +117,18 @@ std::vector<Trial> RunTrials(const Scene& scene,
                   options,
                   SeedFor(options.seed, "trial " + written[i].name, notebook));
     }
+    const int num_tags = static_cast<int>(written.size());
+    const uint64_t blunder_seed = SeedFor(options.seed, "trial blunders", notebook);
+    const std::vector<Blunder> blunders =
+        DrawBlunders(num_tags, options.num_blunders, blunder_seed);
+    std::vector<ViewTag> tags;
+    for (const Photograph& photograph : notebook_scene.photographs) tags.push_back(photograph.tag);
+    CommitBlunders(blunders, blunder_seed, tags);
+    std::map<std::string, Blunder> blunder_of_name;
+    for (int i = 0; i < num_tags; ++i) {
+      notebook_scene.photographs[i].tag = tags[i];
+      blunder_of_name[written[i].name] = blunders[i];
+    }
     const std::vector<Registration> registrations =
         RegisterScene(notebook_scene, std::nullopt, options.registration, {});
     for (const Registration& registration : registrations) {
@@ -89,6 +139,9 @@ std::vector<Trial> RunTrials(const Scene& scene,
       Trial trial;
       trial.name = registration.name;
       trial.notebook = notebook;
+      trial.blunder = blunder_of_name.at(registration.name);
+      trial.position_error = errors.position;
+      trial.position_sigma = registration.sigmas.head<3>().norm();
       trial.verdict = registration.verdict;
       trial.start_px =
           MeasureVertexError(scene.model, true_camera, registration.MeasuredCamera()).mean_px;
@@ -97,8 +150,9 @@ std::vector<Trial> RunTrials(const Scene& scene,
       trial.end_at_640_px = trial.end_px * to_640;
       trial.is_wrong_accepted = trial.verdict == Verdict::kAccepted &&
                                 trial.end_px > WrongAcceptedThresholdPx(true_camera.width_px);
-      // Only accepted photographs claim that their covariance holds.
-      if (trial.verdict == Verdict::kAccepted) {
+      // Only accepted photographs claim that their covariance holds, and a blunder's errors were
+      // not drawn from the sigmas that its tag states.
+      if (trial.verdict == Verdict::kAccepted && trial.blunder == Blunder::kNone) {
         const auto calibration = MeasureCalibration(errors.parameters, registration.covariance);
         trial.is_calibrated = calibration.has_value();
         trial.is_inside_95 = calibration && calibration->is_inside_95;
@@ -113,32 +167,30 @@ std::vector<Trial> RunTrials(const Scene& scene,
 }
 
 std::vector<TrialBin> SummariseTrials(const std::vector<Trial>& trials) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::vector<std::pair<double, double>> ranges = {
       {0, 5}, {5, 10}, {10, 20}, {20, 40}, {40, kInfinity}, {0, kInfinity}};
   std::vector<TrialBin> bins;
   for (const auto& [low, high] : ranges) {
-    TrialBin bin;
-    bin.low_px = low;
-    bin.high_px = high;
-    std::vector<double> ends;
+    std::vector<Trial> chosen;
     for (const Trial& trial : trials) {
-      if (trial.start_at_640_px < low || trial.start_at_640_px >= high) continue;
-      ends.push_back(trial.end_at_640_px);
-      bin.num_within_1_px += trial.end_at_640_px <= 1;
-      bin.num_within_3_px += trial.end_at_640_px <= 3;
-      bin.num_accepted += trial.verdict == Verdict::kAccepted;
-      bin.num_wrong_accepted += trial.is_wrong_accepted;
-      bin.num_calibrated += trial.is_calibrated;
-      bin.num_inside_95 += trial.is_inside_95;
+      if (trial.blunder == Blunder::kNone && trial.start_at_640_px >= low &&
+          trial.start_at_640_px < high) {
+        chosen.push_back(trial);
+      }
     }
-    bin.count = static_cast<int>(ends.size());
-    if (bin.count == 0) continue;
-    std::sort(ends.begin(), ends.end());
-    bin.median_end_px = ends[ends.size() / 2];
-    bins.push_back(bin);
+    if (!chosen.empty()) bins.push_back(CountTrials(chosen, low, high));
   }
   return bins;
+}
+
+TrialBin SummariseBlunders(const std::vector<Trial>& trials, Blunder kind) {
+  std::vector<Trial> chosen;
+  for (const Trial& trial : trials) {
+    if (trial.blunder != Blunder::kNone && (kind == Blunder::kNone || trial.blunder == kind)) {
+      chosen.push_back(trial);
+    }
+  }
+  return CountTrials(chosen, 0, kInfinity);
 }
 
 std::string FormatTrialsTable(const std::vector<Trial>& trials, const TrialOptions& options) {
@@ -185,6 +237,22 @@ std::string FormatTrialsTable(const std::vector<Trial>& trials, const TrialOptio
                   ShareInPercent(bin.num_inside_95, bin.num_calibrated));
     text += line;
   }
+  if (options.num_blunders == 0) return text;
+  for (const Blunder kind : kBlunderKinds) {
+    const TrialBin bin = SummariseBlunders(trials, kind);
+    std::snprintf(
+        line,
+        sizeof line,
+        "%-28s %6d  put right (to 3 px) %5.1f %%  accepted %5.1f %%  wrong %d (%.1f %%)\n",
+        kind == Blunder::kNone ? "all blunders"
+                               : ("blunders, " + std::string(BlunderName(kind))).c_str(),
+        bin.count,
+        ShareInPercent(bin.num_within_3_px, bin.count),
+        ShareInPercent(bin.num_accepted, bin.count),
+        bin.num_wrong_accepted,
+        ShareInPercent(bin.num_wrong_accepted, bin.count));
+    text += line;
+  }
   return text;
 }
 
@@ -195,19 +263,19 @@ std::string FormatTrialsJson(const std::vector<Trial>& trials, const TrialOption
   json["sigma_position"] = options.sigma_position;
   json["sigma_height"] = options.sigma_height;
   json["sigma_lookat"] = options.sigma_lookat;
+  json["blunders_each"] = options.num_blunders;
   json["bins"] = nlohmann::ordered_json::array();
   for (const TrialBin& bin : SummariseTrials(trials)) {
     nlohmann::ordered_json entry = {{"low_px_at_640", bin.low_px}, {"high_px_at_640", nullptr}};
     if (bin.high_px < 1e6) entry["high_px_at_640"] = bin.high_px;
-    entry["count"] = bin.count;
-    entry["within_1_px"] = bin.num_within_1_px;
-    entry["within_3_px"] = bin.num_within_3_px;
-    entry["accepted"] = bin.num_accepted;
-    entry["wrong_accepted"] = bin.num_wrong_accepted;
-    entry["calibrated"] = bin.num_calibrated;
-    entry["inside_95"] = bin.num_inside_95;
-    entry["median_px_at_640"] = bin.median_end_px;
+    entry.update(JsonFromBin(bin));
     json["bins"].push_back(entry);
+  }
+  if (options.num_blunders > 0) {
+    for (const Blunder kind : kBlunderKinds) {
+      const std::string name = kind == Blunder::kNone ? "all" : std::string(BlunderName(kind));
+      json["blunders"][name] = JsonFromBin(SummariseBlunders(trials, kind));
+    }
   }
   json["trials"] = nlohmann::ordered_json::array();
   for (const Trial& trial : trials) {
@@ -215,6 +283,9 @@ std::string FormatTrialsJson(const std::vector<Trial>& trials, const TrialOption
                               {"notebook", trial.notebook},
                               {"start_px", trial.start_px},
                               {"end_px", trial.end_px},
+                              {"position_error", trial.position_error},
+                              {"position_sigma", trial.position_sigma},
+                              {"blunder", std::string(BlunderName(trial.blunder))},
                               {"verdict", std::string(VerdictName(trial.verdict))},
                               {"wrong_accepted", trial.is_wrong_accepted},
                               {"inside_95", trial.is_inside_95}});

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "datasets-synthetic/notebook.h"
 #include "datasets-synthetic/truth.h"
 #include "register/register_photograph.h"
 #include "scene/progress.h"
@@ -21,6 +22,8 @@ struct TrialOptions {
   double sigma_position = 0.15;
   double sigma_height = 0.05;
   double sigma_lookat = 0.3;
+  // How many tags of each notebook hold a blunder; they are counted apart.
+  int num_blunders = 0;
   RegisterOptions registration;
 
   void Check() const;  // throws Error naming the first field out of range
@@ -35,6 +38,9 @@ struct Trial {
   double end_px = 0;
   double start_at_640_px = 0;
   double end_at_640_px = 0;
+  double position_error = 0;  // model's unit
+  double position_sigma = 0;  // claimed; 0 where nothing is
+  Blunder blunder = Blunder::kNone;
   Verdict verdict = Verdict::kRejected;
   bool is_wrong_accepted = false;
   bool is_calibrated = false;  // has a covariance to be judged
@@ -62,8 +68,10 @@ struct TrialBin {
   double median_end_px = 0;  // at 640 wide
 };
 // Bins of starting error: below 5, 10, 20, 40 px and beyond; then all together. Empty ones left
-// out.
+// out. Blunders are not among them.
 std::vector<TrialBin> SummariseTrials(const std::vector<Trial>& trials);
+// The blunders of one kind together; of all kinds for kNone.
+TrialBin SummariseBlunders(const std::vector<Trial>& trials, Blunder kind);
 
 std::string FormatTrialsTable(const std::vector<Trial>& trials, const TrialOptions& options);
 std::string FormatTrialsJson(const std::vector<Trial>& trials, const TrialOptions& options);

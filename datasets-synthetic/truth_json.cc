@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace groundglass {
 namespace {
 
@@ -48,6 +50,7 @@ Json JsonFromPlan(const PhotographPlan& plan, const VertexError& tag_error) {
                  {"L", JsonFromVector(plan.entry.measured.lookat_in_site)},
                  {"a", plan.entry.measured.aspect},
                  {"v", plan.entry.measured.view_angle_deg}};
+  json["blunder"] = std::string(BlunderName(plan.blunder));
   json["slide"] = {{"tx_px", plan.slide.shift_x_px},
                    {"ty_px", plan.slide.shift_y_px},
                    {"theta_deg", plan.slide.turn_deg},
@@ -57,7 +60,10 @@ Json JsonFromPlan(const PhotographPlan& plan, const VertexError& tag_error) {
                    {"wb", plan.photometry.white_balance},
                    {"vign", plan.photometry.vignetting},
                    {"grain", plan.photometry.grain},
-                   {"blur_px", plan.photometry.blur_px}};
+                   {"blur_px", plan.photometry.blur_px},
+                   {"motion_px", plan.photometry.motion_px},
+                   {"motion_deg", plan.photometry.motion_deg},
+                   {"defocus_px", plan.photometry.defocus_px}};
   json["tag_error_px"] = {{"n_vertices_in_frame", tag_error.num_points},
                           {"mean", tag_error.mean_px},
                           {"max", tag_error.max_px}};
@@ -108,13 +114,17 @@ std::string FormatTruth(const SynthRecipe& recipe,
     json["face_names"][std::to_string(face + 1)] = model.faces[face].name;
   }
   double sum_px = 0;
+  int num_without_blunder = 0;
   Json views = Json::array();
   for (const PhotographPlan& plan : plans) {
     const VertexError error = MeasureTagError(model, plan);
-    sum_px += error.mean_px;
+    if (plan.blunder == Blunder::kNone) {
+      sum_px += error.mean_px;
+      ++num_without_blunder;
+    }
     views.push_back(JsonFromPlan(plan, error));
   }
-  json["tag_error_px_mean_over_views"] = sum_px / static_cast<double>(plans.size());
+  json["tag_error_px_mean_over_views"] = sum_px / std::max(1, num_without_blunder);
   json["views"] = views;
   json["novel"] = Json::array();
   for (const PlannedView& view : novel_views) {

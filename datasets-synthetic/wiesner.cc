@@ -250,6 +250,22 @@ void FitTilesToCorners(WorldBuilder& builder) {
   }
 }
 
+// Where the corners' quarter circles have their centres: in the photographed world they are round.
+void RoundCorners(const WorldBuilder& builder, SyntheticWorld& world) {
+  const std::pair<const char*, Eigen::Vector2d> corners[] = {{"north-east", OnPlan(94, -30)},
+                                                             {"north-west", OnPlan(49, -30)},
+                                                             {"south-east", OnPlan(80, 100)},
+                                                             {"south-west", OnPlan(10, 100)}};
+  for (const auto& [name, center] : corners) {
+    SyntheticWorld::RoundCorner corner;
+    corner.center_in_world = center;
+    for (int i = 0; i < 3; ++i) {
+      corner.faces[i] = builder.FaceNamed(std::string(name) + " corner " + std::to_string(i + 1));
+    }
+    world.round_corners.push_back(corner);
+  }
+}
+
 // Machinery on the roof, and a stair tower.
 void AddPenthouses(WorldBuilder& builder) {
   builder.AddBox(At(55, 20, 66),
@@ -290,6 +306,7 @@ Subject MakeWiesner(uint64_t seed) {
   AddWestBlock(builder);
   AddPenthouses(builder);
   FitTilesToCorners(builder);
+  RoundCorners(builder, subject.world);
   AddWallPictures(builder);
   subject.world.num_model_faces = static_cast<int>(subject.world.geometry.faces.size());
   AddSurroundings(builder, OnPlan(52, 35), 150, seed);

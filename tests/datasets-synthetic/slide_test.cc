@@ -2,9 +2,12 @@
 // Part of Groundglass.
 #include "datasets-synthetic/slide.h"
 
+#include "scene/image_io.h"
 #include "scene/view_tag.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace groundglass {
 namespace {
@@ -55,7 +58,7 @@ TEST(DevelopPhotograph, GrainHasTheDeviationAskedForAndNoBias) {
   Photometry photometry;
   photometry.grain = 0.02;
   const Camera camera = CameraFromTag(MakeTag(), 200, 200);
-  const Image8 picture = DevelopPhotograph(grey, camera, photometry, 5);
+  const Image8 picture = QuantiseSrgb8(DevelopPhotograph(grey, camera, photometry, 5));
   double sum = 0;
   double squares = 0;
   for (const uint8_t value : picture.values) {
@@ -73,9 +76,55 @@ TEST(DevelopPhotograph, OneStopDoublesTheLight) {
   Photometry photometry;
   photometry.exposure_stops = 1;
   const Camera camera = CameraFromTag(MakeTag(), 8, 8);
-  const Image8 brighter = DevelopPhotograph(grey, camera, photometry, 5);
-  const Image8 expected = DevelopPhotograph(ImageF(8, 8, 3, 0.2f), camera, Photometry(), 5);
+  const ImageF brighter = DevelopPhotograph(grey, camera, photometry, 5);
+  const ImageF expected = DevelopPhotograph(ImageF(8, 8, 3, 0.2f), camera, Photometry(), 5);
   EXPECT_EQ(brighter.values, expected.values);
+}
+
+// What a spoilt photograph does to a thin bright line across the middle of the picture: its light
+// stays, where it was on average, spread as far as asked for.
+struct Spread {
+  double light = 0;
+  double middle_px = 0;
+  double deviation_px = 0;
+};
+Spread SpreadOfUprightLine(const Photometry& photometry) {
+  ImageF radiance(61, 41, 3);
+  for (int y = 0; y < 41; ++y) *radiance.At(30, y) = 0.5f;
+  const Camera camera = CameraFromTag(MakeTag(), 61, 41);
+  const ImageF picture = DevelopPhotograph(radiance, camera, photometry, 1);
+  Spread spread;
+  double squares = 0;
+  for (int x = 0; x < 61; ++x) {
+    const double light = LinearFromSrgb(*picture.At(x, 20));
+    spread.light += light;
+    spread.middle_px += light * (x + 0.5);
+    squares += light * (x + 0.5) * (x + 0.5);
+  }
+  spread.middle_px /= spread.light;
+  spread.deviation_px = std::sqrt(squares / spread.light - spread.middle_px * spread.middle_px);
+  return spread;
+}
+
+TEST(DevelopPhotograph, MotionSpreadsALineAlongItselfAndMovesNothing) {
+  Photometry across;
+  across.motion_px = 12;
+  const Spread wide = SpreadOfUprightLine(across);
+  EXPECT_NEAR(wide.light, 0.5, 0.005);
+  EXPECT_NEAR(wide.middle_px, 30.5, 0.02);
+  EXPECT_NEAR(wide.deviation_px, 12 / std::sqrt(12.0), 0.1);  // an even spread over 12 px
+  Photometry along = across;
+  along.motion_deg = 90;
+  EXPECT_LT(SpreadOfUprightLine(along).deviation_px, 0.4);
+}
+
+TEST(DevelopPhotograph, DefocusSpreadsOverADiscOfTheRadiusAskedFor) {
+  Photometry photometry;
+  photometry.defocus_px = 6;
+  const Spread spread = SpreadOfUprightLine(photometry);
+  EXPECT_NEAR(spread.light, 0.5, 0.005);
+  EXPECT_NEAR(spread.middle_px, 30.5, 0.02);
+  EXPECT_NEAR(spread.deviation_px, 3, 0.1);  // of one coordinate of a disc: half its radius
 }
 
 }  // namespace
