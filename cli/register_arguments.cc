@@ -2,7 +2,9 @@
 // Part of Groundglass.
 #include "cli/register_arguments.h"
 
+#include "register/control_points.h"
 #include "register/registration_output.h"
+#include "register/select_photographs.h"
 #include "scene/image_io.h"
 #include "viewer/overlay.h"
 
@@ -22,6 +24,12 @@ std::string FormatSigma(double value) {
   return text.str();
 }
 
+std::string JoinWithCommas(const std::vector<std::string>& names) {
+  std::string joined;
+  for (const std::string& name : names) joined += (joined.empty() ? "" : ",") + name;
+  return joined;
+}
+
 }  // namespace
 
 void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
@@ -38,6 +46,35 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
                    prior.lock,
                    "parameters to hold at the tag's values: x y z yaw pitch roll v a shift k1")
       ->delimiter(',');
+  command
+      ->add_option("--free",
+                   prior.free,
+                   "parameters to look for whatever the tag or the lens file says: names as above")
+      ->delimiter(',');
+  command->add_flag("--independent",
+                    arguments.is_independent,
+                    "each photograph by itself, as is done today without it too");
+  const std::string by_hand = "Help by hand, photographs by name, with commas between";
+  command->add_option("--only", arguments.only, "the photographs to register; others are left out")
+      ->delimiter(',')
+      ->group(by_hand);
+  command
+      ->add_option("--points",
+                   arguments.points_file,
+                   "points file: photograph x_px y_px x y z sigma_px, three or more for each")
+      ->group(by_hand);
+  command
+      ->add_option("--accept",
+                   arguments.options.overrule.accept,
+                   "accept what was found for these, whatever the verdict")
+      ->delimiter(',')
+      ->group(by_hand);
+  command
+      ->add_option("--reject",
+                   arguments.options.overrule.reject,
+                   "keep these as they were measured and out of the texture")
+      ->delimiter(',')
+      ->group(by_hand);
   const std::string group = "Standard deviations where the tag does not say";
   command->add_option("--sigma-position", prior.position_m, "across, metres")
       ->capture_default_str()
@@ -73,6 +110,17 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments, const CommonOption
   for (const std::string& warning : scene.warnings) {
     std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
+  RequirePhotographs(scene, arguments.only, "option --only");
+  RequirePhotographs(scene, arguments.options.overrule.accept, "option --accept");
+  RequirePhotographs(scene, arguments.options.overrule.reject, "option --reject");
+  if (arguments.points_file) {
+    std::vector<std::string> names;
+    for (const ControlPoint& point : ReadControlPoints(*arguments.points_file)) {
+      names.push_back(point.photograph);
+    }
+    RequirePhotographs(scene, names, arguments.points_file->string());
+  }
+  KeepPhotographs(arguments.only, scene);
   return scene;
 }
 
@@ -92,6 +140,7 @@ Manifest DescribeInputs(const std::string& command,
   };
   add(scene.model_file);
   if (arguments.lens_file) add(*arguments.lens_file);
+  if (arguments.points_file) add(*arguments.points_file);
   for (const Photograph& photograph : scene.photographs) {
     add(photograph.image_file);
     if (!photograph.view_file.empty()) add(photograph.view_file);
@@ -112,9 +161,12 @@ Manifest DescribeInputs(const std::string& command,
   manifest.options["sigma-shift"] = FormatSigma(prior.shift);
   manifest.options["sigma-k1"] = FormatSigma(prior.k1);
   manifest.options["digital"] = prior.digital ? "yes" : "no";
-  std::string lock;
-  for (const std::string& name : prior.lock) lock += (lock.empty() ? "" : ",") + name;
-  manifest.options["lock"] = lock;
+  manifest.options["lock"] = JoinWithCommas(prior.lock);
+  manifest.options["free"] = JoinWithCommas(prior.free);
+  manifest.options["independent"] = "yes";  // whether asked for or not
+  manifest.options["only"] = JoinWithCommas(arguments.only);
+  manifest.options["accept"] = JoinWithCommas(arguments.options.overrule.accept);
+  manifest.options["reject"] = JoinWithCommas(arguments.options.overrule.reject);
   return manifest;
 }
 
@@ -123,8 +175,10 @@ std::vector<Registration> RegisterAndWrite(const Scene& scene,
                                            const CommonOptions& common) {
   std::optional<Lens> lens;
   if (arguments.lens_file) lens = ReadLens(*arguments.lens_file);
+  RegisterOptions options = arguments.options;
+  if (arguments.points_file) options.control_points = ReadControlPoints(*arguments.points_file);
   const std::vector<Registration> registrations =
-      RegisterScene(scene, lens, arguments.options, MakeProgress(common, "registering"));
+      RegisterScene(scene, lens, options, MakeProgress(common, "registering"));
 
   const Progress progress = MakeProgress(common, "drawing overlays");
   const std::vector<ModelEdge> edges = FindModelEdges(scene.model);

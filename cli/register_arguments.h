@@ -22,11 +22,15 @@ struct RegisterArguments {
   std::filesystem::path out_folder;
   std::optional<std::filesystem::path> model_file;
   std::optional<std::filesystem::path> lens_file;
+  std::optional<std::filesystem::path> points_file;
+  bool is_independent = false;    // each photograph by itself: so far the only way there is
+  std::vector<std::string> only;  // photographs by name; empty: all
   RegisterOptions options;
 };
 void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments);
 
-// Reads the scene, telling its warnings on stderr.
+// Reads the scene, telling its warnings on stderr, and leaves the photographs that are asked for.
+// Names that it does not have are an Error.
 Scene ReadSceneForCommand(const RegisterArguments& arguments, const CommonOptions& common);
 
 // The inputs' hashes and the options, for manifest.json.

@@ -8,6 +8,39 @@
 #include <cmath>
 
 namespace groundglass {
+namespace {
+
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void RequireParameterNames(const std::vector<std::string>& names, const std::string& option) {
+  for (const std::string& name : names) {
+    if (name == "shift") continue;
+    if (std::find(kCameraParameterNames.begin(), kCameraParameterNames.end(), name) ==
+        kCameraParameterNames.end()) {
+      throw Error("option " + option + ": no parameter is called '" + name +
+                  "'; there are x y z yaw pitch roll v a shift shift_x shift_y k1");
+    }
+  }
+}
+
+// What the tag says of its own numbers, without those that are to be free.
+TagSigmas SigmasThatHold(TagSigmas sigmas, const std::vector<std::string>& free) {
+  for (const std::string& name : free) {
+    if (name == "x" || name == "y") sigmas.position.reset();
+    if (name == "z") sigmas.height.reset();
+    if (name == "yaw" || name == "pitch") sigmas.lookat.reset();
+    if (name == "roll") sigmas.roll_deg.reset();
+    if (name == "v") sigmas.view_angle_deg.reset();
+    if (name == "a") sigmas.aspect.reset();
+    if (name.starts_with("shift")) sigmas.shift.reset();
+    if (name == "k1") sigmas.k1.reset();
+  }
+  return sigmas;
+}
+
+}  // namespace
 
 void PriorOptions::Check() const {
   const auto require_positive = [](double value, const char* name) {
@@ -23,13 +56,10 @@ void PriorOptions::Check() const {
   require_positive(aspect_share, "sigma-a");
   require_positive(shift, "sigma-shift");
   require_positive(k1, "sigma-k1");
-  for (const std::string& name : lock) {
-    if (name == "shift") continue;
-    if (std::find(kCameraParameterNames.begin(), kCameraParameterNames.end(), name) ==
-        kCameraParameterNames.end()) {
-      throw Error("option lock: no parameter is called '" + name +
-                  "'; there are x y z yaw pitch roll v a shift shift_x shift_y k1");
-    }
+  RequireParameterNames(lock, "lock");
+  RequireParameterNames(free, "free");
+  for (const std::string& name : free) {
+    if (Contains(lock, name)) throw Error("options lock and free: '" + name + "' is in both");
   }
 }
 
@@ -42,10 +72,11 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
   const auto length_sigma = [&](const std::optional<double>& noted, double metres, double share) {
     return noted.value_or(std::max(metres * units_per_metre, share * distance));
   };
+  const TagSigmas noted_sigmas = SigmasThatHold(tag.sigmas, options.free);
   const double position =
-      length_sigma(tag.sigmas.position, options.position_m, options.position_share);
-  const double height = length_sigma(tag.sigmas.height, options.height_m, options.height_share);
-  const double lookat = length_sigma(tag.sigmas.lookat, options.lookat_m, options.lookat_share);
+      length_sigma(noted_sigmas.position, options.position_m, options.position_share);
+  const double height = length_sigma(noted_sigmas.height, options.height_m, options.height_share);
+  const double lookat = length_sigma(noted_sigmas.lookat, options.lookat_m, options.lookat_share);
 
   CameraPrior prior;
   prior.mean = ParametersFromTag(tag);
@@ -69,13 +100,13 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
   const Eigen::Matrix<double, 5, 6> scaled = by_measured * measured_sigmas.asDiagonal();
   covariance.topLeftCorner<5, 5>() = scaled * scaled.transpose();
 
-  double roll = tag.sigmas.roll_deg.value_or(options.roll_deg);
+  double roll = noted_sigmas.roll_deg.value_or(options.roll_deg);
   double view_angle =
-      tag.sigmas.view_angle_deg.value_or(options.view_angle_share * tag.view_angle_deg);
-  double aspect = tag.sigmas.aspect.value_or(options.aspect_share * tag.aspect);
-  double shift_x = tag.sigmas.shift.value_or(options.shift);
+      noted_sigmas.view_angle_deg.value_or(options.view_angle_share * tag.view_angle_deg);
+  double aspect = noted_sigmas.aspect.value_or(options.aspect_share * tag.aspect);
+  double shift_x = noted_sigmas.shift.value_or(options.shift);
   double shift_y = shift_x;
-  double k1 = tag.sigmas.k1.value_or(options.k1);
+  double k1 = noted_sigmas.k1.value_or(options.k1);
   if (lens) {
     prior.mean[6] = lens->view_angle_deg;
     prior.mean[7] = lens->aspect;
@@ -92,6 +123,17 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
     shift_x = std::hypot(lens->sigma_shift_x, slide * options.shift);
     shift_y = std::hypot(lens->sigma_shift_y, slide * options.shift);
     k1 = lens->sigma_k1;
+    const auto free_at_least = [&](const char* name, double own, double& sigma) {
+      const bool is_shift = std::string_view(name).starts_with("shift");
+      if (Contains(options.free, name) || (is_shift && Contains(options.free, "shift"))) {
+        sigma = std::max(sigma, own);
+      }
+    };
+    free_at_least("v", options.view_angle_share * lens->view_angle_deg, view_angle);
+    free_at_least("a", options.aspect_share * lens->aspect, aspect);
+    free_at_least("shift_x", options.shift, shift_x);
+    free_at_least("shift_y", options.shift, shift_y);
+    free_at_least("k1", options.k1, k1);
   }
   const double independent[6] = {roll, view_angle, aspect, shift_x, shift_y, k1};
   for (int i = 0; i < 6; ++i) covariance(5 + i, 5 + i) = independent[i] * independent[i];

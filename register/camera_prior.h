@@ -34,6 +34,9 @@ struct PriorOptions {
 
   // Parameters held at the tag's values: names of kCameraParameterNames, or "shift" for both.
   std::vector<std::string> lock;
+  // Parameters that are looked for as if neither the tag nor the lens file gave a standard
+  // deviation: these options' own are taken, unless the lens file's are larger. Names as for lock.
+  std::vector<std::string> free;
 
   void Check() const;  // throws Error naming the first field out of range
 };

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/refine.h"
 
+#include "register/control_point_cost.h"
 #include "register/edge_alignment_cost.h"
 
 #include <ceres/ceres.h>
@@ -109,6 +110,7 @@ double EstimateNoise(const std::vector<AlignedSample>& aligned,
 
 // One robust step: correspondences held, Ceres solves for the whitened parameters.
 void Solve(const std::vector<AlignedSample>& aligned,
+           const std::vector<ControlPoint>& points,
            const CameraPrior& prior,
            const ViewTag& measured,
            int width_px,
@@ -119,12 +121,14 @@ void Solve(const std::vector<AlignedSample>& aligned,
   ceres::Problem::Options problem_options;
   problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   EdgeAlignmentCost alignment(aligned, prior, measured.k2, width_px, height_px);
+  ControlPointCost pointing(points, prior, measured.k2, width_px, height_px);
   ceres::NormalPrior whitened_prior(
       ceres::Matrix::Identity(kNumCameraParameters, kNumCameraParameters),
       ceres::Vector::Zero(kNumCameraParameters));
   ceres::Problem problem(problem_options);
   problem.AddResidualBlock(&alignment, nullptr, whitened.data());
   problem.AddResidualBlock(&whitened_prior, nullptr, whitened.data());
+  if (!points.empty()) problem.AddResidualBlock(&pointing, nullptr, whitened.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.max_num_iterations = max_iterations;
@@ -155,7 +159,8 @@ Refinement RefineFrom(const CameraParameters& start,
                       const ViewTag& measured,
                       int width_px,
                       int height_px,
-                      const RefineOptions& options) {
+                      const RefineOptions& options,
+                      const std::vector<ControlPoint>& points) {
   // Steps at the final range: the mixture settles in a few.
   constexpr int kFinalSteps = 3;
   const double units_per_metre = 1 / MetresPerUnit(edge_model.model.unit);
@@ -192,6 +197,7 @@ Refinement RefineFrom(const CameraParameters& start,
         refinement.samples, evidence, prior, projection, units_per_metre, annealing, options);
     if (aligned.size() < 8) return false;
     Solve(aligned,
+          points,
           prior,
           measured,
           width_px,

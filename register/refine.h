@@ -3,6 +3,7 @@
 #pragma once
 
 #include "register/camera_prior.h"
+#include "register/control_points.h"
 #include "register/edge_evidence.h"
 #include "register/edge_samples.h"
 
@@ -45,7 +46,8 @@ struct Refinement {
 
 // Aligns the model's edges with the photograph's, from a start in whitened parameters: edge
 // candidates as a robust mixture whose width is annealed with the search range (graduated
-// non-convexity), the prior as residuals, each model edge with a marginalised offset.
+// non-convexity), the prior as residuals, each model edge with a marginalised offset. Control
+// points, in pixels of the width x height picture, join the solve as residuals.
 Refinement RefineFrom(const CameraParameters& start,
                       const EdgeModel& edge_model,
                       const EdgeEvidence& evidence,
@@ -53,6 +55,7 @@ Refinement RefineFrom(const CameraParameters& start,
                       const ViewTag& measured,
                       int width_px,
                       int height_px,
-                      const RefineOptions& options);
+                      const RefineOptions& options,
+                      const std::vector<ControlPoint>& points = {});
 
 }  // namespace groundglass

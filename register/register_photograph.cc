@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/register_photograph.h"
 
+#include "register/pointed_prior.h"
 #include "register/verdict.h"
 #include "scene/error.h"
 
@@ -38,10 +39,25 @@ double MeanDisplacement(const std::vector<EdgeSample>& samples,
   return count ? sum / count : 0;
 }
 
+// The photograph's own control points, in pixels of a picture of another size.
+std::vector<ControlPoint> PointsIn(const std::string& photograph,
+                                   const std::vector<ControlPoint>& points,
+                                   double scale) {
+  std::vector<ControlPoint> own;
+  for (const ControlPoint& point : points) {
+    if (point.photograph != photograph) continue;
+    own.push_back(point);
+    own.back().image_px *= scale;
+    own.back().sigma_px *= scale;
+  }
+  return own;
+}
+
 }  // namespace
 
 void RegisterOptions::Check() const {
   prior.Check();
+  overrule.Check();
   if (!(max_width_px >= 64)) throw Error("option max-width: must be at least 64 px");
   if (!(refine.shrink > 0 && refine.shrink < 1)) {
     throw Error("option shrink: must lie between 0 and 1");
@@ -75,34 +91,46 @@ Registration RegisterPhotograph(const std::string& name,
   const CameraPrior prior = MakeCameraPrior(measured, edge_model.model.unit, lens, options.prior);
   registration.prior_sigmas = prior.sigmas;
   registration.sigmas = prior.sigmas;
+  const std::vector<ControlPoint> points = PointsIn(name, options.control_points, scale);
+  const PointedPrior pointed = NarrowByPoints(points, prior, measured, width_px, height_px);
 
   // Starts: what is visible under the tag, widened so that edges just outside may come in.
-  const Camera start_camera = CameraFromParameters(prior.mean, measured, width_px, height_px);
+  const Camera start_camera =
+      CameraFromParameters(pointed.prior.mean, measured, width_px, height_px);
   const std::vector<EdgeSample> start_samples =
       SampleVisibleEdges(edge_model, start_camera, 0.02 * width_px, 10);
   if (start_samples.size() < 10) {
     registration.reasons.push_back("the measured tag sees almost nothing of the model");
+    registration.covariance = prior.root * prior.root.transpose();
+    OverruleVerdict(options.overrule, registration);
     return registration;
   }
   const std::vector<Hypothesis> hypotheses = FindHypotheses(
-      start_samples, prior, measured, width_px, height_px, evidence, options.hypotheses);
+      start_samples, pointed.prior, measured, width_px, height_px, evidence, options.hypotheses);
+  // Where a person has pointed, the whole of what is left uncertain is searched.
+  RefineOptions refine = options.refine;
+  refine.start_sigmas =
+      std::min(refine.start_sigmas,
+               NarrowingOf(pointed, prior, start_samples, measured, width_px, height_px));
 
   // Refine and score each.
   std::vector<Solution> solutions;
   for (const Hypothesis& hypothesis : hypotheses) {
     Solution solution;
-    solution.refinement = RefineFrom(hypothesis.whitened,
+    solution.refinement = RefineFrom(pointed.offset + pointed.map * hypothesis.whitened,
                                      edge_model,
                                      evidence,
                                      prior,
                                      measured,
                                      width_px,
                                      height_px,
-                                     options.refine);
+                                     refine,
+                                     points);
     const ParameterProjection projection(
         prior.mean + prior.root * solution.refinement.whitened, measured.k2, width_px, height_px);
     solution.score =
         ScoreAlignment(solution.refinement.samples, projection, evidence, options.score);
+    solution.control_point_nats = ControlPointNats(points, projection);
     solutions.push_back(std::move(solution));
   }
   std::stable_sort(solutions.begin(), solutions.end(), [](const Solution& a, const Solution& b) {
@@ -136,6 +164,9 @@ Registration RegisterPhotograph(const std::string& name,
                        best_projection) /
       scale;
   JudgeRegistration(best, rival, rival_distance_px / scale, prior, options, registration);
+  JudgeControlPoints(
+      points, best_projection, scale, options.max_control_point_sigmas, registration);
+  OverruleVerdict(options.overrule, registration);
   if (registration.verdict != Verdict::kRejected) {
     registration.corrected = TagFromParameters(parameters, measured);
   }

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "register/camera_prior.h"
+#include "register/control_points.h"
 #include "register/edge_samples.h"
 #include "register/hypotheses.h"
+#include "register/overrule.h"
 #include "register/refine.h"
 #include "register/score.h"
 #include "scene/image.h"
@@ -38,6 +40,14 @@ struct RegisterOptions {
   // Nor may all of them together: the squared length of the whitened change (chi-squared with 11
   // degrees of freedom; 99.9 % lie below).
   double max_prior_chi_squared = 31.3;
+
+  // Places that a person has recognised, of all photographs, in pixels of theirs. None may end
+  // further than this from where the camera sees it, in the point's sigmas.
+  std::vector<ControlPoint> control_points;
+  double max_control_point_sigmas = 4;
+
+  // Whose verdicts a person decides.
+  OverruleOptions overrule;
 
   void Check() const;  // throws Error naming the first field out of range
 };

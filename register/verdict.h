@@ -13,9 +13,12 @@ namespace groundglass {
 struct Solution {
   Refinement refinement;
   AlignmentScore score;
+  double control_point_nats = 0;  // log density of what a person pointed at, 0 without
 
-  // The prior's log density joins the edges' score.
-  double TotalScore() const { return score.nats - 0.5 * refinement.whitened.squaredNorm(); }
+  // The log densities of the prior and of the control points join the edges' score.
+  double TotalScore() const {
+    return score.nats + control_point_nats - 0.5 * refinement.whitened.squaredNorm();
+  }
 };
 
 // Writes verdict, reasons and the undetermined parameters into a registration whose figures are

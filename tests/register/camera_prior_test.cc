@@ -81,6 +81,32 @@ TEST(CameraPrior, LockedParametersDoNotMove) {
   EXPECT_GT(prior.sigmas[5], 0);
 }
 
+TEST(CameraPrior, FreeParametersAreLookedForWhateverTheTagOrTheLensSays) {
+  ViewTag tag = LevelTag();
+  tag.sigmas.roll_deg = 0.01;
+  PriorOptions options;
+  options.free = {"roll", "k1"};
+  EXPECT_DOUBLE_EQ(MakeCameraPrior(tag, LengthUnit::kFoot, {}, {}).sigmas[5], 0.01);
+  EXPECT_DOUBLE_EQ(MakeCameraPrior(tag, LengthUnit::kFoot, {}, options).sigmas[5], 1.5);
+  Lens lens;
+  lens.view_angle_deg = 53.2;
+  lens.aspect = 1.5;
+  EXPECT_EQ(MakeCameraPrior(tag, LengthUnit::kFoot, lens, {}).sigmas[10], 0);
+  EXPECT_DOUBLE_EQ(MakeCameraPrior(tag, LengthUnit::kFoot, lens, options).sigmas[10], 0.05);
+}
+
+TEST(CameraPrior, AParameterCannotBeBothLockedAndFree) {
+  PriorOptions options;
+  options.lock = {"v", "k1"};
+  options.free = {"k1"};
+  try {
+    options.Check();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "options lock and free: 'k1' is in both");
+  }
+}
+
 TEST(CameraPrior, ALensFileReplacesTheLensInTheTag) {
   Lens lens;
   lens.view_angle_deg = 53.2;

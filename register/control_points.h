@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// A place in a photograph that a person has recognised as a point of the model.
+struct ControlPoint {
+  std::string photograph;  // its name, "s5"
+  Eigen::Vector2d image_px = Eigen::Vector2d::Zero();
+  Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
+  double sigma_px = 2;  // one standard deviation each way, of pointing and of the model together
+};
+
+// Reads a points file (docs/points-file.md): `photograph x_px y_px x y z sigma_px`, one point a
+// line, x y z in `site`. Throws Error naming file and line; a photograph with fewer than three
+// points is an error too.
+std::vector<ControlPoint> ReadControlPoints(const std::filesystem::path& file);
+
+}  // namespace groundglass

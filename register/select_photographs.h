@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/scene_folder.h"
+
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// Throws Error if the scene has no photograph of one of these names, with the names there are.
+// place: where the names stand, for the message ("option --only").
+void RequirePhotographs(const Scene& scene,
+                        const std::vector<std::string>& names,
+                        const std::string& place);
+
+// Leaves only these photographs in the scene, in the scene's order; all if none is named.
+void KeepPhotographs(const std::vector<std::string>& names, Scene& scene);
+
+}  // namespace groundglass
