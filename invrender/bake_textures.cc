@@ -181,8 +181,12 @@ BakeResult BakeTextures(const PolygonModel& model,
     }
     steps.Tell("compared the photographs of chart " + std::to_string(i + 1));
   });
-  const ColourModel colour = options.match_colour ? EstimateColour(cells, photos.size())
-                                                  : MakeNeutralColour(cells, photos.size());
+  // Occluders are told from exposure even where the pages keep the photographs' own exposures.
+  const ColourModel neutral = MakeNeutralColour(cells, photos.size());
+  const ColourModel matched = options.match_colour || options.reject_occluders
+                                  ? EstimateColour(cells, photos.size())
+                                  : neutral;
+  const ColourModel& printed = options.match_colour ? matched : neutral;
 
   // Fill the pages.
   BakeResult result;
@@ -192,9 +196,10 @@ BakeResult BakeTextures(const PolygonModel& model,
     const Chart& chart = charts[i];
     if (chart.page >= 0) {
       const ChartTexels texels(model, chart);
-      const ChartChoice choice = ChooseCells(cells[i], i, colour, options);
+      const ChartChoice choice = ChooseCells(cells[i], i, matched, options);
       ChartPixels pixels =
-          ComposeChart(chart, i, texels, photos, cells[i], choice, colour, options);
+          ComposeChart(chart, i, texels, photos, cells[i], choice, printed, options);
+      MarkSlits(pixels);
       SpreadIntoWeakTexels(pixels);
       // Faces and pages' rectangles of different charts do not overlap: no lock.
       CountTexels(texels, pixels, result.coverage);

@@ -12,7 +12,7 @@
 namespace groundglass {
 
 // Side of a cell in texels. Colour, consensus and choice are settled on cells; texels only follow.
-constexpr int kCellTexels = 4;
+constexpr int kCellTexels = 5;
 
 // One cell as one photograph shows it.
 struct CellView {

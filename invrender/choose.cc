@@ -24,6 +24,11 @@ constexpr float kBlurWeight = 1;
 // Sun and cast shadows: how fast photographs with uneven light lose.
 constexpr double kEvenLightPreference = 4;
 
+// Views that differ less than this from the consensus agree with it.
+constexpr float kAgreeing = 1.5f;
+// Where less than this share of the votes agrees, there is no majority.
+constexpr float kMajority = 0.34f;
+
 // The colours of one cell in the photographs that see it.
 struct CellColours {
   std::vector<size_t> seen;  // k
@@ -110,6 +115,51 @@ std::vector<float> Smooth(const ChartCells& cells, const std::vector<float>& val
   return smooth;
 }
 
+// Where no majority agrees, as on glossy or recessed windows, cell-by-cell decisions would tear
+// what stands there into patches. Each connected region of such cells is judged as a whole: a
+// view's dissent is its mean over the region, and what it does not show of it counts against it.
+void SettleDisputes(const ChartCells& cells,
+                    const std::vector<float>& support,
+                    std::vector<float>& dissent) {
+  const size_t num_photos = cells.photos.size();
+  std::vector<char> is_open(cells.NumCells(), 0);  // disputed, not yet in a region
+  for (int cell = 0; cell < cells.NumCells(); ++cell) {
+    float most = -1;
+    for (size_t k = 0; k < num_photos; ++k) most = std::max(most, support[cell * num_photos + k]);
+    is_open[cell] = most >= 0 && most < kMajority;
+  }
+  std::vector<int> region;
+  for (int start = 0; start < cells.NumCells(); ++start) {
+    if (!is_open[start]) continue;
+    region.assign(1, start);
+    is_open[start] = 0;
+    for (size_t next = 0; next < region.size(); ++next) {
+      const int x = region[next] % cells.width;
+      const int y = region[next] / cells.width;
+      for (int j = std::max(0, y - 1); j <= std::min(cells.height - 1, y + 1); ++j) {
+        for (int i = std::max(0, x - 1); i <= std::min(cells.width - 1, x + 1); ++i) {
+          const int neighbour = j * cells.width + i;
+          if (!is_open[neighbour]) continue;
+          is_open[neighbour] = 0;
+          region.push_back(neighbour);
+        }
+      }
+    }
+    for (size_t k = 0; k < num_photos; ++k) {
+      float sum = 0;
+      for (const int cell : region) {
+        const float value = dissent[cell * num_photos + k];
+        sum += value < 0 ? kLargestDissent : value;
+      }
+      const float mean = sum / static_cast<float>(region.size());
+      for (const int cell : region) {
+        float& value = dissent[cell * num_photos + k];
+        if (value >= 0) value = mean;
+      }
+    }
+  }
+}
+
 // Squared difference of each view to the consensus, in units of what is ordinary; -1 where nobody
 // else sees the cell. The consensus is the view that the others and the palette speak for, with
 // the surroundings' say.
@@ -138,22 +188,30 @@ std::vector<float> MeasureDissent(const ChartCells& cells, int chart, const Colo
   }
   cost = Smooth(cells, cost, 2);
   std::vector<float> dissent(cells.views.size(), -1);
+  std::vector<float> support(cells.views.size(), -1);
   for (int cell = 0; cell < cells.NumCells(); ++cell) {
     cell_colours.Set(cells, cell, chart, colour);
     const size_t count = cell_colours.seen.size();
     if (count < 2) continue;
+    const size_t* seen = cell_colours.seen.data();
     size_t middle = 0;
     for (size_t i = 1; i < count; ++i) {
-      if (cost[cell * num_photos + cell_colours.seen[i]] <
-          cost[cell * num_photos + cell_colours.seen[middle]]) {
-        middle = i;
-      }
+      if (cost[cell * num_photos + seen[i]] < cost[cell * num_photos + seen[middle]]) middle = i;
     }
+    float agreeing = 0;
+    float all = 0;
     for (size_t i = 0; i < count; ++i) {
-      dissent[cell * num_photos + cell_colours.seen[i]] = cell_colours.Difference(i, middle);
+      const float difference = cell_colours.Difference(i, middle);
+      dissent[cell * num_photos + seen[i]] = difference;
+      if (i == middle) continue;
+      all += cell_colours.votes[i];
+      if (difference < kAgreeing) agreeing += cell_colours.votes[i];
     }
+    for (size_t i = 0; i < count; ++i) support[cell * num_photos + seen[i]] = agreeing / all;
   }
-  return Smooth(cells, dissent, 1);
+  dissent = Smooth(cells, dissent, 1);
+  SettleDisputes(cells, Smooth(cells, support, 2), dissent);
+  return dissent;
 }
 
 }  // namespace

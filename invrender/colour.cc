@@ -165,15 +165,17 @@ void SolveGains(std::vector<Pair>& pairs, int channel, std::vector<ColourModel::
 
 // One round of face gains around the cells' weighted medians.
 void SolveFaceGains(const std::vector<ChartCells>& cells, ColourModel& colour) {
-  constexpr double kFewCells = 12;  // below this many, a chart's gain is pulled to none
+  constexpr double kFewCells = 12;    // below this many, a chart's gain is pulled to none
+  constexpr int kEnoughCells = 8000;  // medians need no more
   for (size_t chart = 0; chart < cells.size(); ++chart) {
     const ChartCells& grid = cells[chart];
     std::vector<Eigen::Array3f> shift(grid.photos.size(), Eigen::Array3f::Zero());
     std::vector<std::pair<float, float>> sorted;
     std::vector<double> count(grid.photos.size(), 0);
+    const int step = std::max(1, grid.NumCells() / kEnoughCells);
     for (int channel = 0; channel < 3; ++channel) {
       std::vector<std::vector<std::pair<float, float>>> residuals(grid.photos.size());
-      for (int cell = 0; cell < grid.NumCells(); ++cell) {
+      for (int cell = 0; cell < grid.NumCells(); cell += step) {
         const CellView* views = grid.ViewsOf(cell);
         sorted.clear();
         for (size_t k = 0; k < grid.photos.size(); ++k) {

@@ -6,6 +6,10 @@
 
 namespace groundglass {
 
+// Open texels in slits and specks narrower than a few texels, covered on one side at least, become
+// weak: no photograph's pixel grid decides whether a hairline of a wall was seen.
+void MarkSlits(ChartPixels& pixels);
+
 // Weak texels within their reach of good ones take their colour from them: the last pixel before
 // an edge of the model shows the sky as much as the wall.
 void SpreadIntoWeakTexels(ChartPixels& pixels);

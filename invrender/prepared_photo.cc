@@ -143,7 +143,7 @@ std::optional<Sighting> PreparedPhoto::Sight(const Eigen::Vector3d& point_in_wor
   const double root = std::sqrt(std::max(0.0, sum * sum - 4 * det * det));
   const double large = std::sqrt((sum + root) / 2);
   const double small = large > 0 ? det / large : 0;
-  const double resolution = std::pow(small, 0.75) * std::pow(large, 0.25);
+  const double resolution = std::sqrt(small * std::sqrt(det));  // small^(3/4) large^(1/4)
   const double border =
       1e-3 + SmoothStep(border_margin_px_ - 1, border_margin_px_ + 4, sighting.border_px);
   const double frame =

@@ -105,7 +105,7 @@ TEST(BakeTextures, LongWallGetsAllThatFivePhotographsShow) {
       ASSERT_LT((texel.radiance - Waves(texel.point_in_world)).abs().maxCoeff(),
                 texel.texels_from_border < 5 ? 0.12f : 0.06f)
           << texel.point_in_world.transpose();
-    } else if (deepest < 0) {
+    } else if (deepest < 0 && texel.texels_from_border >= 5) {  // slits at borders are closed
       ++num_unseen;
       ASSERT_EQ(texel.source, kProvenanceNone) << texel.point_in_world.transpose();
       ASSERT_EQ(texel.radiance.maxCoeff(), 0);
@@ -186,7 +186,10 @@ TEST(BakeTextures, PillarIsNotPrintedOnTheWallBehindIt) {
   for (const PlacedTexel& texel : TexelsOf(result.model, wall)) {
     if (texel.source == 0) continue;
     ++num_covered;
-    ASSERT_LT(texel.radiance[0], 0.14f) << texel.point_in_world.transpose();
+    // The very pixel in which wall and pillar meet shows both.
+    const double from_pillar = std::abs(texel.point_in_world.x() - 15) - 1;
+    ASSERT_LT(texel.radiance[0], from_pillar < 0.08 ? 0.4f : 0.14f)
+        << texel.point_in_world.transpose();
   }
   // All of the wall but what stands inside the pillar.
   EXPECT_NEAR(result.coverage.faces[wall].covered_area, 30 * 12 - 2 * 12, 5);
