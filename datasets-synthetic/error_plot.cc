@@ -106,8 +106,12 @@ void DrawAxes(const Panel& panel,
 }
 
 // The line y = factor * x within the panel.
-void DrawProportion(
-    const Panel& panel, double factor, const char* color, const char* label, std::string& svg) {
+void DrawProportion(const Panel& panel,
+                    double factor,
+                    const char* color,
+                    const char* label,
+                    double label_at,
+                    std::string& svg) {
   const double low = std::pow(10.0, panel.low_decade);
   const double high = std::pow(10.0, panel.high_decade);
   const double x0 = std::max(low, low / factor);
@@ -120,10 +124,11 @@ void DrawProportion(
          panel.X(x1),
          panel.Y(x1 * factor),
          color);
+  // Beside the line, this share of its way up.
   Append(svg,
          "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\" fill=\"%s\">%s</text>\n",
-         panel.X(x1) - 8,
-         panel.Y(x1 * factor) + 14,
+         std::lerp(panel.X(x0), panel.X(x1), label_at) - 8,
+         std::lerp(panel.Y(x0 * factor), panel.Y(x1 * factor), label_at),
          color,
          label);
 }
@@ -218,12 +223,12 @@ std::string FormatErrorPlot(const std::vector<ErrorPlotPoint>& points,
          kMargin,
          Escaped(title).c_str());
   DrawAxes(errors, "vertex error at the start, px", "vertex error found, px", svg);
-  DrawProportion(errors, 1, "#888888", "nothing gained", svg);
+  DrawProportion(errors, 1, "#888888", "nothing gained", 0.9, svg);
   DrawAxes(claims, "claimed sigma of position, " + unit, "error of position, " + unit, svg);
-  DrawProportion(claims, 1, "#888888", "1 sigma", svg);
+  DrawProportion(claims, 1, "#888888", "1 sigma", 0.35, svg);
   // The 95 % radius of three independent equal axes is 2.795 of theirs, which is 1.61 of the
   // claim, the root of the sum of their squares.
-  DrawProportion(claims, 2.795 / std::sqrt(3.0), "#3366aa", "95 %", svg);
+  DrawProportion(claims, 2.795 / std::sqrt(3.0), "#3366aa", "95 %", 0.9, svg);
   for (const ErrorPlotPoint& point : points) {
     if (point.start_px > 0) DrawPoint(errors, point.start_px, point.end_px, point, svg);
     if (point.position_sigma > 0) {

@@ -57,7 +57,11 @@ struct PixelRays {
 class Tracer {
  public:
   Tracer(const RayScene& scene, const Camera& camera, uint64_t seed)
-      : scene_(scene), camera_(camera), seed_(seed), sun_(scene.light.to_sun) {
+      : scene_(scene),
+        camera_(camera),
+        seed_(seed),
+        sun_(scene.light.to_sun),
+        cells_(std::max(1, static_cast<int>(std::lround(std::sqrt(scene.rays_per_edge_pixel))))) {
     origin_ = camera.PositionInWorld();
     for (int face = 0; face < static_cast<int>(scene.world.geometry.faces.size()); ++face) {
       planes_.push_back(ComputeFacePlane(scene.world.geometry, face));
@@ -157,14 +161,13 @@ class Tracer {
     return sum / 4;
   }
 
-  // 16 rays, one in each cell of a 4 x 4 grid.
+  // A ray in each cell of a grid, 4 x 4 for 16.
   Rgb MixedPixel(const PixelRays& rays, int x, int y) const {
-    constexpr int kCells = 4;
     Rgb sum = Rgb::Zero();
-    for (int i = 0; i < kCells * kCells; ++i) {
+    for (int i = 0; i < cells_ * cells_; ++i) {
       const uint64_t hash = HashOf(seed_, x, y, i);
       const Eigen::Vector3d direction = rays.Direction(
-          (i % kCells + UniformOf(hash)) / kCells, (i / kCells + UniformOf(HashOf(hash))) / kCells);
+          (i % cells_ + UniformOf(hash)) / cells_, (i / cells_ + UniformOf(HashOf(hash))) / cells_);
       const auto hit = scene_.visibility.FirstHit(origin_, direction);
       if (!hit) {
         sum += SkyRadiance(scene_.light, direction);
@@ -178,9 +181,9 @@ class Tracer {
         const double angle = 2 * std::numbers::pi * UniformOf(HashOf(hash, 2));
         in_sun = !scene_.visibility.FirstHit(point, sun_.Toward(radius, angle));
       }
-      sum += Shade(rays, hit->face, direction, hit->distance, in_sun, 1.0 / kCells);
+      sum += Shade(rays, hit->face, direction, hit->distance, in_sun, 1.0 / cells_);
     }
-    return sum / (kCells * kCells);
+    return sum / (cells_ * cells_);
   }
 
   // Light that leaves a place towards the camera; `share` is the sample's part of the pixel's
@@ -259,6 +262,7 @@ class Tracer {
   const Camera& camera_;
   uint64_t seed_;
   SunDisc sun_;
+  int cells_;  // of a mixed pixel, each way
   Eigen::Vector3d origin_;
   std::vector<FacePlane> planes_;
 };

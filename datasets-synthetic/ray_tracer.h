@@ -17,10 +17,11 @@ struct RayScene {
   const Visibility& visibility;
   const SkyMap& sky_map;
   Daylight light;
+  int rays_per_edge_pixel = 16;  // a square number
 };
 
 // The picture that a camera takes, in linear light, each pixel the mean over its area: textures are
-// filtered over its footprint; where faces or shadows meet, 16 jittered rays share the pixel.
+// filtered over its footprint; where faces or shadows meet, jittered rays share the pixel.
 // The same bytes whatever the number of threads.
 ImageF RenderRadiance(const RayScene& scene, const Camera& camera, uint64_t seed);
 

@@ -49,6 +49,7 @@ void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("photo/motion_px", recipe.photo.motion_px);
   visit("photo/defocus_px", recipe.photo.defocus_px);
   visit("photo/ntsc", recipe.photo.ntsc);
+  visit("photo/edge_rays", recipe.photo.edge_rays);
   visit("photo/bits", recipe.photo.bits);
   visit("photo/light", recipe.photo.light);
   visit("occluders/trees", recipe.occluders.trees);
@@ -85,6 +86,9 @@ void SynthRecipe::Check() const {
   if (notebook.blunders < 0) throw Error("recipe field notebook/blunders must not be negative");
   if (photo.spoilt_share > 1) throw Error("recipe field photo/spoilt_share must be at most 1");
   if (photo.bits != 8 && photo.bits != 16) throw Error("recipe field photo/bits must be 8 or 16");
+  if (photo.edge_rays < 1 || photo.edge_rays > 1024) {
+    throw Error("recipe field photo/edge_rays must be 1 to 1024");
+  }
   if (photo.light.find_first_not_of("so") != std::string::npos) {
     throw Error("recipe field photo/light is made of s and o, for sun and overcast");
   }
@@ -138,7 +142,7 @@ SynthRecipe PresetRecipe(const std::string& preset) {
     recipe.is_plain = true;
     recipe.slide = {0, 0, 0, 0, 0, 0, 0};
     recipe.notebook = {0, 0, 0, 0, 0, 0};
-    recipe.photo = {0, 0, 0, 0, 0, 0, 0, 0, 0, false, 8, ""};
+    recipe.photo = {0, 0, 0, 0, 0, 0, 0, 0, 0, false, 100, 8, ""};
     recipe.occluders = {};
     return recipe;
   }

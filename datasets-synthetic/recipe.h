@@ -70,6 +70,9 @@ struct SynthRecipe {
     double defocus_px = 2.5;
     // Digitised as an NTSC frame, 640 x 480 whatever the size of the scan.
     bool ntsc = false;
+    // Rays through a pixel where faces or shadows meet, a square number: 16 place an edge to a few
+    // hundredths of a pixel.
+    int edge_rays = 16;
     // 8: JPEG; 16: TIFF with 16 bits.
     int bits = 8;
     // The light of each photograph in turn: s for sun, o for overcast; empty for chance.

@@ -227,7 +227,7 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
     WritePhotograph(recipe,
                     plan,
                     static_cast<int>(i),
-                    {world, visibility, sky_map, plan.light},
+                    {world, visibility, sky_map, plan.light, recipe.photo.edge_rays},
                     model_visibility,
                     OccluderCodeOffset(model),
                     folder);
@@ -236,7 +236,7 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
   for (const PlannedView& view : planned.novel_views) {
     WriteNovelView(recipe,
                    view,
-                   {planned.world, clean_visibility, sky_map, overcast},
+                   {planned.world, clean_visibility, sky_map, overcast, recipe.photo.edge_rays},
                    model_visibility,
                    folder / "truth" / "novel");
     if (progress) progress(++num_done, num_steps, view.name);

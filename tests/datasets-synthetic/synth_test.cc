@@ -12,8 +12,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace groundglass {
@@ -78,6 +80,8 @@ TEST(Synth, SameRecipeGivesSameBytesWhateverTheThreads) {
   EXPECT_GT(tags.all.mean_px, 0.3);
   EXPECT_LT(tags.all.mean_px, 4);  // at 120 px wide
 
+  EXPECT_GT(ReadTexels(truth.texels_file).size(), 5000u);
+
   // The thesis' own figures, comments aside.
   const ViewTag s5 = ReadView(folder / "one" / "views/s5.view");
   EXPECT_EQ(s5.position_in_site, Eigen::Vector3d(232, -104, 4.5));
@@ -108,6 +112,74 @@ TEST(Synth, HardAndVideoPresetsAreScenesToo) {
   int num_mount = 0;
   for (const uint16_t label : masks.values) num_mount += label == kMount;
   EXPECT_GT(num_mount, 0);
+}
+
+class EachPreset : public testing::TestWithParam<std::string> {};
+
+TEST_P(EachPreset, IsAValidSceneWithAllItsTruth) {
+  const TemporaryFolder folder;
+  SynthRecipe recipe = PresetRecipe(GetParam());
+  recipe.width_px = 96;
+  recipe.height_px = 64;
+  recipe.num_views = 3;
+  const SynthSummary summary = WriteSyntheticScene(recipe, folder / "scene");
+  const SceneCheck check = CheckScene(folder / "scene");
+  EXPECT_THAT(check.faults, testing::IsEmpty());
+  EXPECT_THAT(check.scene.warnings, testing::IsEmpty());
+  EXPECT_EQ(check.scene.photographs.size(), 3u);
+  EXPECT_EQ(static_cast<int>(check.scene.model.faces.size()), summary.num_faces);
+  const Truth truth = ReadTruth(folder / "scene" / "truth");
+  EXPECT_EQ(truth.cameras.size(), 3u);
+  EXPECT_FALSE(truth.novel_views.empty());
+  for (const TexelSample& sample : ReadTexels(truth.texels_file)) {
+    ASSERT_LT(sample.face, summary.num_faces);
+  }
+  for (const fs::path& masks : {truth.masks_model_folder, truth.masks_occ_folder}) {
+    const Image16 labels = ReadLabels(masks / "s1.png");
+    EXPECT_EQ(labels.width, truth.cameras.front().camera.width_px);
+    EXPECT_GT(std::count_if(labels.values.begin(),
+                            labels.values.end(),
+                            [&](int label) { return label > 0 && label <= summary.num_faces; }),
+              96 * 64 / 10);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         EachPreset,
+                         testing::ValuesIn([] {
+                           std::vector<std::string> names;
+                           for (const SynthPreset& preset : ListSynthPresets()) {
+                             names.push_back(preset.name);
+                           }
+                           return names;
+                         }()),
+                         [](const auto& test) { return test.param; });
+
+// 16 bits hold more greys than 8, and the truth knows which tags are wrong.
+TEST(Synth, SixteenBitScansAndBlundersAreInTheScene) {
+  const TemporaryFolder folder;
+  SynthRecipe recipe = SmallRecipe();
+  recipe.photo.bits = 16;
+  recipe.notebook.blunders = 3;
+  recipe.photo.light = "so";
+  const SynthSummary summary = WriteSyntheticScene(recipe, folder / "scene");
+  EXPECT_EQ(summary.num_blunders, 3);
+  EXPECT_LT(summary.mean_tag_error_px, 4);  // of the two others, at 120 px wide
+  const ImageF radiance = ReadRadiance(folder / "scene/images/s2.tif");
+  const std::set<float> reds(radiance.values.begin(), radiance.values.end());
+  EXPECT_GT(reds.size(), 2000u);
+  EXPECT_TRUE(CheckScene(folder / "scene").faults.empty());
+  std::ifstream in(folder / "scene/truth/truth.json");
+  std::ostringstream json;
+  json << in.rdbuf();
+  for (const char* part : {"\"blunder\": \"swapped coordinates\"",
+                           "\"blunder\": \"wrong sign\"",
+                           "\"blunder\": \"wrong photograph\"",
+                           "\"blunder\": \"none\"",
+                           "\"kind\": \"sun\"",
+                           "\"kind\": \"overcast\""}) {
+    EXPECT_THAT(json.str(), testing::HasSubstr(part));
+  }
 }
 
 TEST(Recipe, ReadsBackAsWrittenAndOverridesSingleFields) {

@@ -38,6 +38,26 @@ TEST(SummariseTrials, CountsByStartingErrorAndAllTogether) {
   EXPECT_EQ(bins[2].count, 4);
 }
 
+// Blunders are counted apart from what the notebooks' sigmas say.
+TEST(SummariseTrials, BlundersAreCountedApart) {
+  std::vector<Trial> trials = {MakeTrial(3, 0.2, Verdict::kAccepted),
+                               MakeTrial(300, 40, Verdict::kAccepted),
+                               MakeTrial(200, 0.5, Verdict::kAccepted),
+                               MakeTrial(250, 250, Verdict::kRejected)};
+  trials[1].blunder = Blunder::kWrongPhotograph;
+  trials[2].blunder = trials[3].blunder = Blunder::kWrongSign;
+  EXPECT_EQ(SummariseTrials(trials).back().count, 1);
+  const TrialBin all = SummariseBlunders(trials, Blunder::kNone);
+  EXPECT_EQ(all.count, 3);
+  EXPECT_EQ(all.num_within_3_px, 1);
+  EXPECT_EQ(all.num_wrong_accepted, 1);
+  EXPECT_EQ(SummariseBlunders(trials, Blunder::kWrongPhotograph).num_wrong_accepted, 1);
+  EXPECT_EQ(SummariseBlunders(trials, Blunder::kSwappedCoordinates).count, 0);
+  TrialOptions options;
+  options.num_blunders = 3;
+  EXPECT_THAT(FormatTrialsTable(trials, options), testing::HasSubstr("wrong 1 (33.3 %)"));
+}
+
 // Notebooks differ from one another, and registration brings their tags back to the truth.
 TEST(RunTrials, NotebooksOfStatedSigmasAreBroughtBack) {
   Scene scene = ReadScene(kBrick);
