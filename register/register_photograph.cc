@@ -105,8 +105,11 @@ Registration RegisterPhotograph(const std::string& name,
     OverruleVerdict(options.overrule, registration);
     return registration;
   }
-  const std::vector<Hypothesis> hypotheses = FindHypotheses(
-      start_samples, pointed.prior, measured, width_px, height_px, evidence, options.hypotheses);
+  std::vector<Hypothesis> hypotheses = {{}};  // the tag itself
+  if (options.hypotheses.max_starts > 0) {
+    hypotheses = FindHypotheses(
+        start_samples, pointed.prior, measured, width_px, height_px, evidence, options.hypotheses);
+  }
   // Where a person has pointed, the whole of what is left uncertain is searched.
   RefineOptions refine = options.refine;
   refine.start_sigmas =
