@@ -2,6 +2,7 @@
 // Part of Groundglass.
 // Help by hand: photographs chosen, points given, verdicts overruled.
 #include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 TEST(ByHand, VerdictsAreOverruledAndSaySo) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   const fs::path scene = work / "scene";
   CopyBrick(scene, {"s1", "s2", "s7"});
   // s1's tag with s7's photograph: nobody would believe it without being told to.
@@ -52,7 +53,7 @@ TEST(ByHand, VerdictsAreOverruledAndSaySo) {
 }
 
 TEST(ByHand, NamesThatTheSceneDoesNotHaveAreErrors) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   CopyBrick(work / "scene", {"s1", "s2"});
   WriteAll(work / "a.points",
            "s1 1 2 3 4 5 2\ns1 2 3 4 5 6 2\ns1 3 4 5 6 8 2\n"
@@ -79,7 +80,7 @@ TEST(ByHand, NamesThatTheSceneDoesNotHaveAreErrors) {
 }
 
 TEST(ByHand, PointsJoinAndTheirFileIsInTheManifest) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   CopyBrick(work / "scene", {"s1"});
   WriteAll(work / "a.points",
            "s1 1 2 30 40 5 5000\ns1 2 3 40 50 6 5000\ns1 3 4 50 60 8 5000 % anywhere\n");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ TEST(Check, ASoundSceneHasNoFaults) {
 }
 
 TEST(Check, ListsEveryFaultInOneGo) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   const fs::path scene = work / "scene";
   CopyBrick(scene, {"s1", "s2", "s3", "s4", "s5"});
   WriteAll(scene / "views" / "s1.view", "x 1\ny 2\nz 3\ni 4\nj 5\nk 6\na 1.5\nv 200\n");
@@ -67,7 +68,7 @@ TEST(Check, ListsEveryFaultInOneGo) {
 }
 
 TEST(Check, DrawsTheMeasuredTags) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   CopyBrick(work / "scene", {"s1"});
   const ProgramRun run = RunProgram(
       {"check", (work / "scene").string(), "-o", (work / "overlays").string(), "--quiet"});
@@ -76,7 +77,7 @@ TEST(Check, DrawsTheMeasuredTags) {
 }
 
 TEST(Convert, AModelSurvivesTheWayThroughObj) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   const std::string obj = (work / "a.obj").string();
   const std::string osu = (work / "a.osu").string();
   const std::string again = (work / "b.osu").string();
@@ -101,7 +102,7 @@ std::pair<int, std::string> RunOther(const std::string& command) {
 }
 
 TEST(Convert, ColmapReadsOurCamerasAndWeReadThemBack) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   const std::string colmap_folder = (work / "colmap").string();
   const std::string views_folder = (work / "views").string();
   const ProgramRun there = RunProgram({"convert", kBrick + "/views", colmap_folder});

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 // From a scene folder to corrected tags, a textured model, pictures and a report.
 #include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ using testing::HasSubstr;
 const std::string kTruth = std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick/truth";
 
 TEST(MainJob, CorrectsTexturesRendersAndEvaluates) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   const fs::path scene = work / "scene";
   CopyBrick(scene, {"s1", "s2", "s5"});
   const std::string before = Fingerprint(scene);
@@ -83,7 +84,7 @@ TEST(MainJob, CorrectsTexturesRendersAndEvaluates) {
 }
 
 TEST(MainJob, RefusesAFolderThatHoldsSomethingElse) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   CopyBrick(work / "scene", {"s1"});
   const fs::path out = work / "out";
   fs::create_directories(out);
@@ -98,7 +99,7 @@ TEST(MainJob, RefusesAFolderThatHoldsSomethingElse) {
 }
 
 TEST(MainJob, DryRunWritesNothing) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   CopyBrick(work / "scene", {"s1", "s2"});
   const ProgramRun run =
       RunProgram({"run", (work / "scene").string(), "-o", (work / "out").string(), "--dry-run"});
@@ -108,7 +109,7 @@ TEST(MainJob, DryRunWritesNothing) {
 }
 
 TEST(MainJob, APhotographOfSomethingElseIsFlaggedWithThree) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   const fs::path scene = work / "scene";
   CopyBrick(scene, {"s1", "s7"});
   // s1's tag with s7's photograph: a different side of the building.
@@ -123,7 +124,7 @@ TEST(MainJob, APhotographOfSomethingElseIsFlaggedWithThree) {
 }
 
 TEST(MainJob, ALensFileServesRegister) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   CopyBrick(work / "scene", {"s1"});
   WriteAll(work / "good.lens", "v 58 sigma_v 0.3\na 1.5 sigma_a 0.005\n");
   const ProgramRun good = RunProgram({"register",

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "tests/cli/program.h"
 
+#include "tests/support/temporary_folder.h"
+
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,7 +28,7 @@ std::string Quoted(const std::string& argument) {
 }  // namespace
 
 ProgramRun RunProgram(const std::vector<std::string>& arguments) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   std::string command = Quoted(GROUNDGLASS_PROGRAM);
   for (const std::string& argument : arguments) command += " " + Quoted(argument);
   command += " >" + Quoted((work / "out").string()) + " 2>" + Quoted((work / "err").string()) +
@@ -34,16 +36,6 @@ ProgramRun RunProgram(const std::vector<std::string>& arguments) {
   const int status = std::system(command.c_str());
   return {
       WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(work / "out"), ReadAll(work / "err")};
-}
-
-WorkFolder::WorkFolder() {
-  std::string pattern = (fs::temp_directory_path() / "groundglass_cli_XXXXXX").string();
-  path_ = mkdtemp(pattern.data());
-}
-
-WorkFolder::~WorkFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
 }
 
 void CopyBrick(const fs::path& folder, const std::vector<std::string>& names) {

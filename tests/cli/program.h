@@ -18,19 +18,6 @@ struct ProgramRun {
 // Runs `groundglass ARGUMENTS...` as a person would.
 ProgramRun RunProgram(const std::vector<std::string>& arguments);
 
-// A folder of its own for one test, removed at the end.
-class WorkFolder {
- public:
-  WorkFolder();
-  ~WorkFolder();
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
 // A copy of the brick scene with only these photographs, to be spoiled at will.
 void CopyBrick(const std::filesystem::path& folder, const std::vector<std::string>& names);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -55,7 +56,7 @@ TEST(Usage, WrongUsageEndsWithTwo) {
 }
 
 TEST(Usage, MissingInputIsOneLineAndOne) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   const std::string nowhere = (work / "nowhere").string();
   const std::string out = (work / "out").string();
   ExpectOneLineError(RunProgram({"run", nowhere, "-o", out, "--quiet"}), nowhere);
@@ -69,7 +70,7 @@ TEST(Usage, MissingInputIsOneLineAndOne) {
 }
 
 TEST(Calibrate, DrawsABoardAndRefusesPicturesWithoutOne) {
-  const WorkFolder work;
+  const TemporaryFolder work;
   const std::string board = (work / "board.png").string();
   const ProgramRun print = RunProgram({"calibrate", "board", "--print", board});
   EXPECT_EQ(print.status, 0) << print.err;

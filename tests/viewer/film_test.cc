@@ -3,6 +3,7 @@
 #include "viewer/film.h"
 
 #include "scene/error.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/viewer/sample_models.h"
 
 #include <gmock/gmock.h>
@@ -18,12 +19,6 @@ namespace fs = std::filesystem;
 
 class Film : public testing::Test {
  protected:
-  Film() : file_(fs::path(testing::TempDir()) / "groundglass_film_test" / "film.mp4") {
-    fs::remove_all(file_.parent_path());
-    fs::create_directories(file_.parent_path());
-  }
-  ~Film() override { fs::remove_all(file_.parent_path()); }
-
   std::string MessageOf(int width, const FilmOptions& options) {
     try {
       WriteFilm(
@@ -34,7 +29,8 @@ class Film : public testing::Test {
     return "";
   }
 
-  fs::path file_;
+  const TemporaryFolder folder_;
+  const fs::path file_ = folder_ / "film.mp4";
 };
 
 bool HasFfmpeg() { return std::system("ffmpeg -version > /dev/null 2>&1") == 0; }

@@ -6,6 +6,7 @@
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/registration_io.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/viewer/sample_models.h"
 #include "viewer/report_html.h"
 
@@ -46,11 +47,7 @@ TEST(ReportHtml, SharesAreNeverFalselyWhole) {
 
 class ReportOf : public testing::Test {
  protected:
-  ReportOf() : folder_(fs::path(testing::TempDir()) / "groundglass_report_test" / "hall") {
-    fs::remove_all(folder_.parent_path());
-    fs::create_directories(folder_);
-  }
-  ~ReportOf() override { fs::remove_all(folder_.parent_path()); }
+  ReportOf() { fs::create_directories(folder_); }
 
   void WriteRegistrations() {
     Registration good;
@@ -86,7 +83,8 @@ class ReportOf : public testing::Test {
            "covered_texels": 0, "texel_size": 0.05, "sources": []}]})");
   }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_ / "hall";
 };
 
 TEST_F(ReportOf, AnEmptyFolderIsAnError) {
