@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "cli/bake_arguments.h"
 #include "cli/commands.h"
-#include "invrender/bake_output.h"
 #include "scene/output_folder.h"
 #include "scene/registration_io.h"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -23,11 +22,7 @@ struct InvrenderArguments {
   std::filesystem::path out_folder;
   std::optional<std::filesystem::path> views_folder;
   std::optional<std::filesystem::path> model_file;
-  std::vector<std::string> exclude;
-  bool accepted_only = false;
-  bool no_colour = false;
-  bool no_consensus = false;
-  BakeOptions options;
+  BakeArguments bake;
 };
 
 // The photographs with their cameras. Verdicts count where `register` left them beside the views.
@@ -47,13 +42,10 @@ std::vector<BakePhotograph> Select(const InvrenderArguments& arguments, const Sc
     const bool is_colmap = std::filesystem::exists(folder / "images.txt");
     photographs =
         !is_colmap && std::filesystem::exists(verdicts)
-            ? SelectPhotographs(scene, ReadRegistrations(verdicts), arguments.accepted_only)
+            ? SelectPhotographs(scene, ReadRegistrations(verdicts), arguments.bake.accepted_only)
             : SelectPhotographs(scene, ReadCameras(scene, folder));
   }
-  std::erase_if(photographs, [&](const BakePhotograph& photograph) {
-    return std::find(arguments.exclude.begin(), arguments.exclude.end(), photograph.name) !=
-           arguments.exclude.end();
-  });
+  NarrowPhotographs(arguments.bake, scene, photographs);
   return photographs;
 }
 
@@ -64,10 +56,7 @@ Manifest Describe(const InvrenderArguments& arguments,
   manifest.version = GROUNDGLASS_VERSION;
   manifest.command = "invrender";
   manifest.seed = arguments.common.seed;
-  manifest.options = {{"texel_size", std::to_string(arguments.options.texel_size)},
-                      {"max_texture", std::to_string(arguments.options.max_page_texels)},
-                      {"match_colour", arguments.options.match_colour ? "yes" : "no"},
-                      {"reject_occluders", arguments.options.reject_occluders ? "yes" : "no"}};
+  DescribeBake(arguments.bake, manifest);
   manifest.sha256_of_inputs[scene.model_file.filename().string()] = HashFile(scene.model_file);
   for (const BakePhotograph& photograph : photographs) {
     for (const auto& file :
@@ -77,6 +66,8 @@ Manifest Describe(const InvrenderArguments& arguments,
           HashFile(*file);
     }
   }
+  const std::filesystem::path pairs = scene.folder / "pairs.csv";
+  if (std::filesystem::exists(pairs)) manifest.sha256_of_inputs["pairs.csv"] = HashFile(pairs);
   return manifest;
 }
 
@@ -109,7 +100,7 @@ void PrintSummary(const BakeResult& result, size_t num_photographs, bool as_json
 }
 
 int RunInvrender(const InvrenderArguments& arguments) {
-  arguments.options.Check();
+  arguments.bake.options.Check();
   SceneOptions scene_options;
   scene_options.model_file = arguments.model_file;
   scene_options.model.unit = arguments.common.unit;
@@ -127,9 +118,11 @@ int RunInvrender(const InvrenderArguments& arguments) {
   }
   PrepareOutputFolder(arguments.out_folder);
   WriteManifest(arguments.out_folder, Describe(arguments, scene, photographs));
-  const BakeResult result = BakeTextures(
-      scene.model, photographs, arguments.options, MakeProgress(arguments.common, "texture"));
-  WriteBake(result, arguments.out_folder);
+  const BakeResult result = BakeTextures(scene.model,
+                                         photographs,
+                                         arguments.bake.Options(),
+                                         MakeProgress(arguments.common, "texture"));
+  WriteBake(result, arguments.out_folder, "." + arguments.bake.format);
   WriteFaceMasks(
       scene.model, photographs, arguments.out_folder, MakeProgress(arguments.common, "masks"));
   PrintSummary(result, photographs.size(), arguments.common.json);
@@ -150,28 +143,9 @@ void AddInvrenderCommand(CLI::App& app, int& exit_status) {
                       ".view files or a COLMAP text model in place of the scene's own tags; "
                       "verdicts in a registration.json beside it are heeded");
   command->add_option("--model", arguments->model_file, "in place of the one in the scene folder");
-  command
-      ->add_option("--texel-size",
-                   arguments->options.texel_size,
-                   "side of a texel, model's unit; 0: as fine as the photographs, face by face")
-      ->capture_default_str();
-  command
-      ->add_option("--max-texture",
-                   arguments->options.max_page_texels,
-                   "texels along a side of the largest page")
-      ->capture_default_str();
-  command->add_option("--exclude", arguments->exclude, "photographs to leave out, by name");
-  command->add_flag("--accepted-only", arguments->accepted_only, "leave out those in review");
-  command->add_flag("--no-colour",
-                    arguments->no_colour,
-                    "keep the photographs' own exposure, white balance and light");
-  command->add_flag("--no-consensus",
-                    arguments->no_consensus,
-                    "keep what only one photograph shows: trees, cars, shadows");
+  AddBakeArguments(command, arguments->bake);
   AddCommonOptions(command, arguments->common);
   command->callback([arguments, &exit_status] {
-    arguments->options.match_colour = !arguments->no_colour;
-    arguments->options.reject_occluders = !arguments->no_consensus;
     exit_status = RunWithThreads(arguments->common, [&] { return RunInvrender(*arguments); });
   });
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "cli/bake_arguments.h"
 #include "cli/commands.h"
 #include "cli/register_arguments.h"
-#include "invrender/bake_output.h"
-#include "invrender/invrender.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
@@ -23,7 +22,7 @@ namespace {
 struct RunArguments {
   CommonOptions common;
   RegisterArguments registering;
-  bool accepted_only = false;
+  BakeArguments baking;
   int num_stills = 4;
 };
 
@@ -64,9 +63,10 @@ int Run(const RunArguments& arguments) {
   const CommonOptions& common = arguments.common;
   const std::filesystem::path& out = registering.out_folder;
   registering.options.Check();
+  arguments.baking.options.Check();
   const Scene scene = ReadSceneForCommand(registering, common);
   Manifest manifest = DescribeInputs("run", scene, registering, common);
-  manifest.options["accepted-only"] = arguments.accepted_only ? "yes" : "no";
+  DescribeBake(arguments.baking, manifest);
   if (common.dry_run) {
     std::printf("would register %zu photographs, bake %zu faces and write %s\n",
                 scene.photographs.size(),
@@ -89,18 +89,19 @@ int Run(const RunArguments& arguments) {
   }
   if (!common.json) PrintRegistrations(registrations);
 
-  const std::vector<BakePhotograph> photographs =
-      SelectPhotographs(scene, registrations, arguments.accepted_only);
+  std::vector<BakePhotograph> photographs =
+      SelectPhotographs(scene, registrations, arguments.baking.accepted_only);
+  NarrowPhotographs(arguments.baking, scene, photographs);
   if (photographs.empty()) {
     std::fprintf(stderr,
                  "groundglass: no photograph could be registered, so nothing is textured\n");
   } else if (!std::filesystem::exists(out / "coverage.json")) {
     WriteFaceMasks(scene.model, photographs, out, MakeProgress(common, "masking"));
-    const BakeResult bake =
-        BakeTextures(scene.model, photographs, {}, MakeProgress(common, "texturing"));
+    const BakeResult bake = BakeTextures(
+        scene.model, photographs, arguments.baking.Options(), MakeProgress(common, "texturing"));
     RenderStills(
         out, bake.model, registrations, arguments.num_stills, MakeProgress(common, "rendering"));
-    WriteBake(bake, out);
+    WriteBake(bake, out, "." + arguments.baking.format);
     if (!common.json) {
       std::printf("texture covers %.1f %% of the model's surface\n",
                   100 * bake.coverage.CoveredShare());
@@ -130,9 +131,7 @@ void AddRunCommand(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand(
       "run", "The main job: correct the tags, texture the model, report what was found");
   AddRegisterArguments(command, arguments->registering);
-  command->add_flag("--accepted-only",
-                    arguments->accepted_only,
-                    "leave photographs in review out of the texture");
+  AddBakeArguments(command, arguments->baking);
   command->add_option("--stills", arguments->num_stills, "pictures from new viewpoints")
       ->capture_default_str()
       ->check(CLI::Range(0, 100));

@@ -96,14 +96,18 @@ std::vector<NamedCamera> ReadCameras(const Scene& scene, const std::filesystem::
   return cameras;
 }
 
-void WriteBake(const BakeResult& result, const std::filesystem::path& out) {
+void WriteBake(const BakeResult& result,
+               const std::filesystem::path& out,
+               const std::string& page_extension) {
   const TexturedModel& model = result.model;
   WriteGlb(out / "model.glb", model);
-  WriteTexturedObj(out / "model.obj", model);
+  WriteTexturedObj(out / "model.obj", model, page_extension);
   for (size_t i = 0; i < model.pages.size(); ++i) {
     WriteLabels(out / ("provenance_" + std::to_string(i) + ".png"), model.pages[i].provenance);
   }
-  RemoveFrom(out, "model_", model.pages.size(), ".jpg");
+  for (const std::string extension : {".jpg", ".png", ".tif", ".exr"}) {
+    RemoveFrom(out, "model_", extension == page_extension ? model.pages.size() : 0, extension);
+  }
   RemoveFrom(out, "provenance_", model.pages.size(), ".png");
   WriteFileAtomically(out / "coverage.json", FormatCoverage(result.coverage));
 }

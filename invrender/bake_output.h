@@ -27,9 +27,12 @@ std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
 // Throws Error if it holds neither.
 std::vector<NamedCamera> ReadCameras(const Scene& scene, const std::filesystem::path& folder);
 
-// Writes model.glb, model.obj with .mtl and pages, coverage.json, and provenance_N.png. Pages that
-// an earlier bake left there and this one does not have are removed.
-void WriteBake(const BakeResult& result, const std::filesystem::path& out);
+// Writes model.glb, model.obj with .mtl and pages (`page_extension`: .jpg, .png, .tif or .exr),
+// coverage.json, and provenance_N.png. Pages that an earlier bake left there and this one does not
+// have are removed.
+void WriteBake(const BakeResult& result,
+               const std::filesystem::path& out,
+               const std::string& page_extension = ".jpg");
 
 // Writes the automatic masks, faces/NAME.png.
 void WriteFaceMasks(const PolygonModel& model,

@@ -6,6 +6,7 @@
 #include "invrender/colour.h"
 #include "invrender/compose.h"
 #include "invrender/dilate.h"
+#include "invrender/fill.h"
 #include "invrender/invrender.h"
 #include "invrender/packing.h"
 #include "invrender/prepared_photo.h"
@@ -204,6 +205,7 @@ BakeResult BakeTextures(const PolygonModel& model,
       // Faces and pages' rectangles of different charts do not overlap: no lock.
       CountTexels(texels, pixels, result.coverage);
       AddSources(sorted, pixels, result.coverage);
+      if (options.fill_gaps) FillOpenTexels(pixels);
       PlaceOnPage(chart, pixels, options.gutter_texels, result.model.pages[chart.page]);
     }
     steps.Tell("textured chart " + std::to_string(i + 1));

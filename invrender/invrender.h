@@ -53,6 +53,8 @@ struct BakeOptions {
   bool reject_occluders = true;
   // Blends photographs in a band along seams, and moves seams to where they do not show.
   bool smooth_seams = true;
+  // Paints over what no photograph shows, from what lies around it; provenance says so.
+  bool fill_gaps = false;
 
   void Check() const;  // throws Error naming the first field out of range
 };

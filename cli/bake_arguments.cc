@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "cli/bake_arguments.h"
+
+#include "invrender/selection.h"
+#include "scene/text.h"
+
+#include <algorithm>
+
+namespace groundglass {
+namespace {
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string joined;
+  for (const std::string& word : words) joined += (joined.empty() ? "" : ",") + word;
+  return joined;
+}
+
+}  // namespace
+
+BakeOptions BakeArguments::Options() const {
+  BakeOptions result = options;
+  result.match_colour = !no_colour;
+  result.reject_occluders = !no_consensus;
+  return result;
+}
+
+void AddBakeArguments(CLI::App* command, BakeArguments& arguments) {
+  const std::string group = "Texture";
+  command
+      ->add_option("--texel-size",
+                   arguments.options.texel_size,
+                   "side of a texel, model's unit; 0: as fine as the photographs, face by face")
+      ->capture_default_str()
+      ->group(group);
+  command
+      ->add_option("--max-texture",
+                   arguments.options.max_page_texels,
+                   "texels along a side of the largest page")
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--exclude", arguments.exclude, "photographs to leave out, by name")
+      ->delimiter(',')
+      ->group(group);
+  command->add_option("--only", arguments.only, "faces to texture: 3, 3-7, or a name")
+      ->delimiter(',')
+      ->group(group);
+  command
+      ->add_option("--masks", arguments.masks_folder, "folder of masks (white = ignore), as s5.png")
+      ->group(group);
+  command->add_option("--format", arguments.format, "of the OBJ's pages; the GLB's are always JPEG")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"jpg", "png", "tif", "exr"}))
+      ->group(group);
+  command
+      ->add_flag("--fill",
+                 arguments.options.fill_gaps,
+                 "paint over what no photograph shows; provenance says 65535 there")
+      ->group(group);
+  command->add_flag("--accepted-only", arguments.accepted_only, "leave out photographs in review")
+      ->group(group);
+  command
+      ->add_flag("--no-colour",
+                 arguments.no_colour,
+                 "keep the photographs' own exposure, white balance and light")
+      ->group(group);
+  command
+      ->add_flag("--no-consensus",
+                 arguments.no_consensus,
+                 "keep what only one photograph shows: trees, cars, shadows")
+      ->group(group);
+}
+
+void NarrowPhotographs(const BakeArguments& arguments,
+                       const Scene& scene,
+                       std::vector<BakePhotograph>& photographs) {
+  if (photographs.empty()) return;
+  ExcludePhotographs(arguments.exclude, photographs);
+  if (arguments.masks_folder) UseMasks(*arguments.masks_folder, photographs);
+  const std::filesystem::path pairs = scene.folder / "pairs.csv";
+  if (std::filesystem::exists(pairs)) RestrictToPairs(pairs, scene.model, photographs);
+  if (!arguments.only.empty()) {
+    RestrictToFaces(scene.model, FindFaces(scene.model, arguments.only), photographs);
+  }
+}
+
+void DescribeBake(const BakeArguments& arguments, Manifest& manifest) {
+  const auto yes = [](bool value) { return value ? "yes" : "no"; };
+  manifest.options["texel-size"] = FormatNumber(arguments.options.texel_size);
+  manifest.options["max-texture"] = std::to_string(arguments.options.max_page_texels);
+  manifest.options["exclude"] = Join(arguments.exclude);
+  manifest.options["only"] = Join(arguments.only);
+  manifest.options["format"] = arguments.format;
+  manifest.options["fill"] = yes(arguments.options.fill_gaps);
+  manifest.options["accepted-only"] = yes(arguments.accepted_only);
+  manifest.options["colour"] = yes(!arguments.no_colour);
+  manifest.options["consensus"] = yes(!arguments.no_consensus);
+  if (!arguments.masks_folder) return;
+  for (const auto& entry : std::filesystem::directory_iterator(*arguments.masks_folder)) {
+    if (!entry.is_regular_file()) continue;
+    manifest.sha256_of_inputs["--masks/" + entry.path().filename().string()] =
+        HashFile(entry.path());
+  }
+}
+
+}  // namespace groundglass

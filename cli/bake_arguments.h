@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "invrender/bake_output.h"
+#include "invrender/invrender.h"
+#include "scene/output_folder.h"
+#include "scene/scene_folder.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// What `invrender` and `run` share: the options of the texture.
+struct BakeArguments {
+  BakeOptions options;
+  std::vector<std::string> exclude;  // photographs
+  std::vector<std::string> only;     // faces
+  std::optional<std::filesystem::path> masks_folder;
+  std::string format = "jpg";
+  bool accepted_only = false;
+  bool no_colour = false;
+  bool no_consensus = false;
+
+  BakeOptions Options() const;
+};
+void AddBakeArguments(CLI::App* command, BakeArguments& arguments);
+
+// Takes --exclude, --masks, --only and the scene's pairs.csv into account.
+void NarrowPhotographs(const BakeArguments& arguments,
+                       const Scene& scene,
+                       std::vector<BakePhotograph>& photographs);
+
+// Adds the options, and the files that only they name, to a manifest.
+void DescribeBake(const BakeArguments& arguments, Manifest& manifest);
+
+}  // namespace groundglass

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "invrender/invrender.h"
+#include "scene/polygon_model.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// The faces (from 0, ascending) that a person means: numbers from 1 as `check` lists them, ranges
+// of them ("3-7"), and names, which several faces may share. Throws Error for what is none.
+std::vector<int> FindFaces(const PolygonModel& model, const std::vector<std::string>& words);
+
+// Leaves these photographs out. Throws Error for a name that none has.
+void ExcludePhotographs(const std::vector<std::string>& names,
+                        std::vector<BakePhotograph>& photographs);
+
+// Takes the masks (white = ignore) from this folder, NAME.png or another image; photographs without
+// one there keep their own. Throws Error if the folder has none for any of them.
+void UseMasks(const std::filesystem::path& folder, std::vector<BakePhotograph>& photographs);
+
+// Photographs texture these faces only.
+void RestrictToFaces(const PolygonModel& model,
+                     const std::vector<int>& faces,
+                     std::vector<BakePhotograph>& photographs);
+
+// Reads pairs.csv (`image,face` on its first line; then an image's name and a face's number or name
+// on each). A face that the table names is textured only by the photographs paired with it; one
+// that it does not name, by all. Throws Error naming the line at fault.
+void RestrictToPairs(const std::filesystem::path& file,
+                     const PolygonModel& model,
+                     std::vector<BakePhotograph>& photographs);
+
+}  // namespace groundglass
