@@ -25,7 +25,7 @@ BakeOptions BakeArguments::Options() const {
   return result;
 }
 
-void AddBakeArguments(CLI::App* command, BakeArguments& arguments) {
+void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::string& only_option) {
   const std::string group = "Texture";
   command
       ->add_option("--texel-size",
@@ -42,7 +42,7 @@ void AddBakeArguments(CLI::App* command, BakeArguments& arguments) {
   command->add_option("--exclude", arguments.exclude, "photographs to leave out, by name")
       ->delimiter(',')
       ->group(group);
-  command->add_option("--only", arguments.only, "faces to texture: 3, 3-7, or a name")
+  command->add_option(only_option, arguments.only, "faces to texture: 3, 3-7, or a name")
       ->delimiter(',')
       ->group(group);
   command

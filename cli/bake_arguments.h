@@ -29,7 +29,11 @@ struct BakeArguments {
 
   BakeOptions Options() const;
 };
-void AddBakeArguments(CLI::App* command, BakeArguments& arguments);
+// `only_option` is what the option for faces is called: where --only means photographs, faces need
+// another name.
+void AddBakeArguments(CLI::App* command,
+                      BakeArguments& arguments,
+                      const std::string& only_option = "--only-faces");
 
 // Takes --exclude, --masks, --only and the scene's pairs.csv into account.
 void NarrowPhotographs(const BakeArguments& arguments,

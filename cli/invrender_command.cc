@@ -143,7 +143,7 @@ void AddInvrenderCommand(CLI::App& app, int& exit_status) {
                       ".view files or a COLMAP text model in place of the scene's own tags; "
                       "verdicts in a registration.json beside it are heeded");
   command->add_option("--model", arguments->model_file, "in place of the one in the scene folder");
-  AddBakeArguments(command, arguments->bake);
+  AddBakeArguments(command, arguments->bake, "--only,--only-faces");
   AddCommonOptions(command, arguments->common);
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] { return RunInvrender(*arguments); });
