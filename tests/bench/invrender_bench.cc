@@ -3,10 +3,13 @@
 #include "invrender/invrender.h"
 #include "invrender/photo_pyramid.h"
 #include "scene/colmap_io.h"
+#include "scene/image_io.h"
 #include "scene/osu_io.h"
 
 #include <benchmark/benchmark.h>
+#include <opencv2/imgproc.hpp>
 
+#include <ctime>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -41,6 +44,55 @@ void BM_BakeBrick(benchmark::State& state) {
   state.counters["texels"] = benchmark::Counter(num_texels, benchmark::Counter::kIsRate);
 }
 BENCHMARK(BM_BakeBrick)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+// CPU seconds of the process so far.
+double CpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+// The least that any bake can do: decode the photographs, look as many texels up bilinearly with
+// cv::remap, and encode the page as JPEG. The counter is the bake's time over this, in one run.
+void BM_BakeBrickOverFloor(benchmark::State& state) {
+  const PolygonModel model = ReadOsu(kBrick + "/model.osu").model;
+  const std::vector<BakePhotograph> photographs = BrickPhotographs();
+  double bake_seconds = 0;
+  double floor_seconds = 0;
+  for (auto _ : state) {
+    const double start = CpuSeconds();
+    const BakeResult result = BakeTextures(model, photographs);
+    for (const TexturePage& page : result.model.pages) EncodeImage(page.srgb8, ".jpg");
+    const double middle = CpuSeconds();
+    long num_texels = 0;
+    for (const FaceCoverage& face : result.coverage.faces) num_texels += face.num_covered_texels;
+    const int side = 1024;
+    const int num_tiles = static_cast<int>(num_texels / (side * side)) + 1;
+    cv::Mat map(side, side, CV_32FC2);
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        map.at<cv::Vec2f>(y, x) = {0.7f * static_cast<float>(x) + 0.1f * static_cast<float>(y),
+                                   0.7f * static_cast<float>(y)};
+      }
+    }
+    std::vector<Image8> decoded;
+    for (const BakePhotograph& photograph : photographs) {
+      decoded.push_back(ReadSrgb8(photograph.image_file));
+    }
+    for (int tile = 0; tile < num_tiles; ++tile) {
+      Image8& from = decoded[tile % decoded.size()];
+      cv::Mat to;
+      cv::remap(cv::Mat(from.height, from.width, CV_8UC3, from.values.data()),
+                to,
+                map,
+                {},
+                cv::INTER_LINEAR);
+      benchmark::DoNotOptimize(to.data);
+    }
+    for (const TexturePage& page : result.model.pages) EncodeImage(page.srgb8, ".jpg");
+    floor_seconds += CpuSeconds() - middle;
+    bake_seconds += middle - start;
+  }
+  state.counters["times_the_floor"] = bake_seconds / floor_seconds;
+  state.counters["floor_s"] = floor_seconds / static_cast<double>(state.iterations());
+}
+BENCHMARK(BM_BakeBrickOverFloor)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 // The automatic mask of one photograph; pixels per second.
 void BM_FaceMask(benchmark::State& state) {
