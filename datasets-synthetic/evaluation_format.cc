@@ -154,6 +154,18 @@ std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonMod
                     evaluation.texels->rms_levels,
                     evaluation.texels->num_covered,
                     evaluation.texels->num_samples);
+    std::vector<std::pair<double, int>> rms_of_face;
+    for (size_t i = 0; i < evaluation.texels->faces.size(); ++i) {
+      const TexelErrors::OfFace& face = evaluation.texels->faces[i];
+      if (face.num_covered > 0) rms_of_face.emplace_back(face.rms_levels, static_cast<int>(i));
+    }
+    if (!rms_of_face.empty()) {
+      std::sort(rms_of_face.begin(), rms_of_face.end());
+      text += Printed("texels by face: median %.2f levels, worst %.2f for %s\n",
+                      rms_of_face[rms_of_face.size() / 2].first,
+                      rms_of_face.back().first,
+                      DescribeFace(model, rms_of_face.back().second).c_str());
+    }
   }
   return text;
 }
@@ -210,6 +222,13 @@ std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonMode
                       {"num_samples", evaluation.texels->num_samples},
                       {"num_covered", evaluation.texels->num_covered},
                       {"gain", evaluation.texels->gain}};
+    json["texels"]["faces"] = nlohmann::ordered_json::array();
+    for (size_t i = 0; i < evaluation.texels->faces.size(); ++i) {
+      const TexelErrors::OfFace& face = evaluation.texels->faces[i];
+      if (face.num_covered == 0) continue;
+      json["texels"]["faces"].push_back(
+          {{"face", i + 1}, {"num_covered", face.num_covered}, {"rms_levels", face.rms_levels}});
+    }
   }
   return json.dump(2) + "\n";
 }

@@ -195,7 +195,11 @@ TexelErrors MeasureTexels(const TexturedModel& model, const std::vector<TexelSam
   }
   TexelErrors errors;
   errors.num_samples = static_cast<long>(samples.size());
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> levels;  // true, found
+  struct Levels3 {
+    int face;
+    Eigen::Vector3d truth, found;
+  };
+  std::vector<Levels3> levels;
   for (const TexelSample& sample : samples) {
     if (sample.face >= static_cast<int>(maps.size()) || !maps[sample.face].has_texture) continue;
     const TexturePage& page = model.pages[model.faces[sample.face].page];
@@ -208,25 +212,35 @@ TexelErrors MeasureTexels(const TexturedModel& model, const std::vector<TexelSam
     }
     const Eigen::Vector3d found =
         MeanTexel(page.srgb8, maps[sample.face], normals[sample.face], sample.in_world);
-    levels.emplace_back(sample.color.cast<double>().unaryExpr(&Levels), found.unaryExpr(&Levels));
+    levels.push_back(
+        {sample.face, sample.color.cast<double>().unaryExpr(&Levels), found.unaryExpr(&Levels)});
   }
+  errors.faces.resize(maps.size());
   errors.num_covered = static_cast<long>(levels.size());
   if (levels.empty()) return errors;
-  double sum_squares = 0;
+  Eigen::Vector3d gain = Eigen::Vector3d::Ones();
   for (int c = 0; c < 3; ++c) {
     double product = 0;
     double square = 0;
-    for (const auto& [true_levels, found_levels] : levels) {
-      product += true_levels[c] * found_levels[c];
-      square += found_levels[c] * found_levels[c];
+    for (const Levels3& sample : levels) {
+      product += sample.truth[c] * sample.found[c];
+      square += sample.found[c] * sample.found[c];
     }
-    if (square > 0) errors.gain[c] = product / square;
-    for (const auto& [true_levels, found_levels] : levels) {
-      const double difference = errors.gain[c] * found_levels[c] - true_levels[c];
-      sum_squares += difference * difference;
-    }
+    if (square > 0) gain[c] = product / square;
+    errors.gain[c] = gain[c];
+  }
+  double sum_squares = 0;
+  for (const Levels3& sample : levels) {
+    const double square = (gain.cwiseProduct(sample.found) - sample.truth).squaredNorm();
+    sum_squares += square;
+    errors.faces[sample.face].rms_levels += square;
+    ++errors.faces[sample.face].num_covered;
   }
   errors.rms_levels = std::sqrt(sum_squares / (3.0 * static_cast<double>(levels.size())));
+  for (TexelErrors::OfFace& face : errors.faces) {
+    if (face.num_covered == 0) continue;
+    face.rms_levels = std::sqrt(face.rms_levels / (3.0 * static_cast<double>(face.num_covered)));
+  }
   return errors;
 }
 

@@ -46,6 +46,12 @@ struct TexelErrors {
   // for each channel has been fitted to the encoded values, as for novel views.
   double rms_levels = 0;
   std::array<double, 3> gain = {1, 1, 1};
+  // The same for each face of the model, with the gains of all.
+  struct OfFace {
+    long num_covered = 0;
+    double rms_levels = 0;
+  };
+  std::vector<OfFace> faces;
 };
 TexelErrors MeasureTexels(const TexturedModel& model, const std::vector<TexelSample>& samples);
 

@@ -62,6 +62,7 @@ TEST(MeasureTexels, CountsALevelAsALevelAndLeavesOutWhatIsNotCovered) {
   std::vector<TexelSample> samples = TrueSamples();
   std::erase_if(samples, [](const TexelSample& sample) { return sample.in_world.x() == 10; });
   EXPECT_NEAR(MeasureTexels(wall, samples).rms_levels, 6 / std::sqrt(3.0), 0.1);
+  EXPECT_NEAR(MeasureTexels(wall, samples).faces.at(0).rms_levels, 6 / std::sqrt(3.0), 0.1);
   for (int y = 0; y < 100; ++y) {
     for (int x = 0; x < 100; ++x) {
       *wall.pages[0].provenance.At(x, y) = x < 50 ? kProvenanceNone : kProvenanceFilled;
