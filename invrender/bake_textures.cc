@@ -8,6 +8,7 @@
 #include "invrender/dilate.h"
 #include "invrender/fill.h"
 #include "invrender/invrender.h"
+#include "invrender/missing.h"
 #include "invrender/packing.h"
 #include "invrender/prepared_photo.h"
 #include "invrender/texel_size.h"
@@ -58,13 +59,22 @@ std::vector<PreparedPhoto> PreparePhotos(const PolygonModel& model,
 
 // How many texels of each face have their centre in it (or, for slivers, touch it), and how many
 // of those are covered.
-void CountTexels(const ChartTexels& texels, const ChartPixels& pixels, Coverage& coverage) {
+void CountTexels(const Chart& chart,
+                 const ChartTexels& texels,
+                 const ChartPixels& pixels,
+                 Coverage& coverage) {
   for (int y = 0; y < texels.height(); ++y) {
     for (int x = 0; x < texels.width(); ++x) {
       if (texels.FaceAt(x, y) < 0 || !texels.IsCentreInside(x, y)) continue;
       FaceCoverage& face = coverage.faces[texels.FaceAt(x, y)];
       ++face.num_texels;
-      if (*pixels.provenance.At(x, y) != kProvenanceNone) ++face.num_covered_texels;
+      if (*pixels.provenance.At(x, y) != kProvenanceNone) {
+        ++face.num_covered_texels;
+        continue;
+      }
+      // A sum for now.
+      if (!face.missing) face.missing.emplace();
+      face.missing->centre_in_world += chart.PointInWorld({x + 0.5, y + 0.5});
     }
   }
 }
@@ -99,11 +109,29 @@ Coverage StartCoverage(const PolygonModel& model,
   return coverage;
 }
 
-void FinishCoverage(Coverage& coverage) {
+void FinishCoverage(const PolygonModel& model, const Visibility& visibility, Coverage& coverage) {
+  constexpr double kWorthTelling = 0.01;  // of a face's area
   for (FaceCoverage& face : coverage.faces) {
     if (face.num_texels > 0) {
       face.covered_area = face.area * static_cast<double>(face.num_covered_texels) /
                           static_cast<double>(face.num_texels);
+    }
+    if (face.area - face.covered_area <= kWorthTelling * face.area) {
+      face.missing.reset();
+    } else {
+      const long num_missing = face.num_texels - face.num_covered_texels;
+      if (face.missing && num_missing > 0) {
+        face.missing->centre_in_world /= static_cast<double>(num_missing);
+      } else {
+        const std::vector<int>& points = model.faces[face.face].points;
+        face.missing.emplace();
+        for (const int point : points) {
+          face.missing->centre_in_world +=
+              model.points_in_world[point] / static_cast<double>(points.size());
+        }
+      }
+      face.missing->stand_in_world =
+          FindStand(model, visibility, face.face, face.missing->centre_in_world);
     }
     std::stable_sort(face.sources.begin(), face.sources.end(), [](const auto& a, const auto& b) {
       return a.num_texels > b.num_texels;
@@ -203,14 +231,14 @@ BakeResult BakeTextures(const PolygonModel& model,
       MarkSlits(pixels);
       SpreadIntoWeakTexels(pixels);
       // Faces and pages' rectangles of different charts do not overlap: no lock.
-      CountTexels(texels, pixels, result.coverage);
+      CountTexels(chart, texels, pixels, result.coverage);
       AddSources(sorted, pixels, result.coverage);
       if (options.fill_gaps) FillOpenTexels(pixels);
       PlaceOnPage(chart, pixels, options.gutter_texels, result.model.pages[chart.page]);
     }
     steps.Tell("textured chart " + std::to_string(i + 1));
   });
-  FinishCoverage(result.coverage);
+  FinishCoverage(model, visibility, result.coverage);
   return result;
 }
 

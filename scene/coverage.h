@@ -2,6 +2,9 @@
 // Part of Groundglass.
 #pragma once
 
+#include <Eigen/Dense>
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,19 +12,26 @@ namespace groundglass {
 
 // How much of one face the photographs show.
 struct FaceCoverage {
-  int face = -1;             // in the model, from 0
+  int face = -1;  // in the model, from 0
   std::string name;
-  double area = 0;           // model's unit, squared
+  double area = 0;  // model's unit, squared
   double covered_area = 0;
   long num_texels = 0;
   long num_covered_texels = 0;
-  double texel_size = 0;     // model's unit
+  double texel_size = 0;  // model's unit
   struct Source {
     std::string photograph;
     long num_texels = 0;
-    double footprint = 0;    // median size of the photograph's pixel on the face, model's unit
+    double footprint = 0;  // median size of the photograph's pixel on the face, model's unit
   };
   std::vector<Source> sources;  // most texels first
+  // What no photograph shows, if it is more than a hundredth of the face.
+  struct Missing {
+    Eigen::Vector3d centre_in_world = Eigen::Vector3d::Zero();
+    // From where it could be photographed: nothing of the model stands between.
+    std::optional<Eigen::Vector3d> stand_in_world;
+  };
+  std::optional<Missing> missing;
 };
 
 struct Coverage {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "scene/coverage.h"
+#include "scene/frames.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,15 @@ std::string FormatCoverage(const Coverage& coverage) {
                                  {"covered_texels", face.num_covered_texels},
                                  {"texel_size", face.texel_size},
                                  {"sources", std::move(sources)}});
+    if (!face.missing) continue;
+    const auto site = [](const Eigen::Vector3d& point_in_world) {
+      const Eigen::Vector3d point_in_site = WorldFromSite(point_in_world);  // its own inverse
+      return Json{point_in_site.x(), point_in_site.y(), point_in_site.z()};
+    };
+    Json missing = {{"area", face.area - face.covered_area},
+                    {"centre", site(face.missing->centre_in_world)}};
+    if (face.missing->stand_in_world) missing["stand_at"] = site(*face.missing->stand_in_world);
+    document["faces"].back()["missing"] = std::move(missing);
   }
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

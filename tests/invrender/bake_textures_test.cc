@@ -270,6 +270,16 @@ TEST(BakeTextures, FaceThatNoPhotographShowsStaysAndIsReported) {
   EXPECT_EQ(result.coverage.faces[back].covered_area, 0);
   EXPECT_EQ(result.coverage.faces[back].area, 100);
   EXPECT_TRUE(result.coverage.faces[back].sources.empty());
+  // Whoever stands behind the wall can photograph it.
+  EXPECT_FALSE(result.coverage.faces[0].missing);
+  ASSERT_TRUE(result.coverage.faces[back].missing);
+  EXPECT_LT(
+      (result.coverage.faces[back].missing->centre_in_world - Eigen::Vector3d(5, 1, 5)).norm(),
+      1e-9);
+  ASSERT_TRUE(result.coverage.faces[back].missing->stand_in_world);
+  EXPECT_GT(result.coverage.faces[back].missing->stand_in_world->y(), 5);
+  EXPECT_NEAR(result.coverage.faces[back].missing->stand_in_world->z(), 5.5, 1e-9);
+  EXPECT_THAT(FormatCoverage(result.coverage), testing::HasSubstr("stand_at"));
   EXPECT_EQ(BakeTextures(model, {}, Plain()).coverage.CoveredShare(), 0);
 }
 
