@@ -45,18 +45,21 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
       ->add_option("--lock",
                    prior.lock,
                    "parameters to hold at the tag's values: x y z yaw pitch roll v a shift k1")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command
       ->add_option("--free",
                    prior.free,
                    "parameters to look for whatever the tag or the lens file says: names as above")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_flag("--independent",
                     arguments.is_independent,
                     "each photograph by itself, as is done today without it too");
   const std::string by_hand = "Help by hand, photographs by name, with commas between";
   command->add_option("--only", arguments.only, "the photographs to register; others are left out")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group(by_hand);
   command
       ->add_option("--points",
@@ -68,12 +71,14 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
                    arguments.options.overrule.accept,
                    "accept what was found for these, whatever the verdict")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group(by_hand);
   command
       ->add_option("--reject",
                    arguments.options.overrule.reject,
                    "keep these as they were measured and out of the texture")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group(by_hand);
   const std::string group = "Standard deviations where the tag does not say";
   command->add_option("--sigma-position", prior.position_m, "across, metres")

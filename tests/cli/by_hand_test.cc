@@ -23,12 +23,13 @@ TEST(ByHand, VerdictsAreOverruledAndSaySo) {
   fs::remove(scene / "images" / "s1.jpg");
   fs::copy_file(scene / "images" / "s7.jpg", scene / "images" / "s1.jpg");
   const fs::path out = work / "out";
+  // A list takes one word, so that the scene may follow it.
   const ProgramRun run = RunProgram({"register",
+                                     "--only",
+                                     "s1,s7",
                                      scene.string(),
                                      "-o",
                                      out.string(),
-                                     "--only",
-                                     "s1,s7",
                                      "--accept",
                                      "s1",
                                      "--reject",
