@@ -21,6 +21,9 @@ struct AlignedSample {
   double precision = 0;  // 1 / variance of offset_px, 1 / px^2; 0 for an outlier
   // The model edge's own error here: one sigma of its shift as a whole, and of its turn (signed).
   Eigen::Vector2d bias_px = Eigen::Vector2d::Zero();
+  // One sigma of the error that it shares with all edges that run its way (SharedBiasCovariance).
+  double shared_bias_px = 0;
+  bool is_upright = false;
 };
 
 // Distances between projected model edges and the photograph's edges, for all samples of one

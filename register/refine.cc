@@ -4,9 +4,9 @@
 
 #include "register/control_point_cost.h"
 #include "register/edge_alignment_cost.h"
+#include "register/shared_bias.h"
 
 #include <ceres/ceres.h>
-#include <ceres/normal_prior.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +75,8 @@ std::vector<AlignedSample> MatchSamples(const std::vector<EdgeSample>& samples,
     const double px_per_metre = units_per_metre * projected[i].px_per_unit;
     sample.bias_px = {options.edge_offset_m * px_per_metre,
                       options.edge_turn_m * px_per_metre * samples[i].along};
+    sample.shared_bias_px = options.shared_offset_m * px_per_metre;
+    sample.is_upright = std::abs(samples[i].direction_in_world.z()) > 0.7;
   }
   return aligned;
 }
@@ -108,6 +110,22 @@ double EstimateNoise(const std::vector<AlignedSample>& aligned,
   return 1;
 }
 
+// The prior: whitened parameters are standard normal, so they are their own residuals.
+class WhitenedPriorCost
+    : public ceres::SizedCostFunction<kNumCameraParameters, kNumCameraParameters> {
+ public:
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    std::copy_n(parameters[0], kNumCameraParameters, residuals);
+    if (jacobians && jacobians[0]) {
+      Eigen::Map<CameraCovariance> by_whitened(jacobians[0]);
+      by_whitened.setIdentity();
+    }
+    return true;
+  }
+};
+
 // One robust step: correspondences held, Ceres solves for the whitened parameters.
 void Solve(const std::vector<AlignedSample>& aligned,
            const std::vector<ControlPoint>& points,
@@ -122,9 +140,7 @@ void Solve(const std::vector<AlignedSample>& aligned,
   problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   EdgeAlignmentCost alignment(aligned, prior, measured.k2, width_px, height_px);
   ControlPointCost pointing(points, prior, measured.k2, width_px, height_px);
-  ceres::NormalPrior whitened_prior(
-      ceres::Matrix::Identity(kNumCameraParameters, kNumCameraParameters),
-      ceres::Vector::Zero(kNumCameraParameters));
+  WhitenedPriorCost whitened_prior;
   ceres::Problem problem(problem_options);
   problem.AddResidualBlock(&alignment, nullptr, whitened.data());
   problem.AddResidualBlock(&whitened_prior, nullptr, whitened.data());
@@ -225,6 +241,8 @@ Refinement RefineFrom(const CameraParameters& start,
         options.min_noise_px,
         options.final_range_px / 2);
   }
+  refinement.covariance += SharedBiasCovariance(
+      aligned, prior, measured.k2, width_px, height_px, refinement.whitened, refinement.covariance);
   refinement.noise_px = annealing.noise_px;
   refinement.num_matched = static_cast<int>(aligned.size());
   // Between the last two steps a settled solution moves by less than its own uncertainty.

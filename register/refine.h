@@ -29,6 +29,9 @@ struct RefineOptions {
   // ends may lie apart from that, metres.
   double edge_offset_m = 0.037;
   double edge_turn_m = 0.037;
+  // One sigma of what all edges may lie off together (reveals, joints, frames), metres. Widens the
+  // covariance and leaves the solution alone.
+  double shared_offset_m = 0.02;
   // The least noise of an edge's position that is believed, px.
   double min_noise_px = 0.3;
 };
