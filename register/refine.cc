@@ -5,6 +5,7 @@
 #include "register/control_point_cost.h"
 #include "register/edge_alignment_cost.h"
 #include "register/shared_bias.h"
+#include "register/whitened_prior_cost.h"
 
 #include <ceres/ceres.h>
 
@@ -109,22 +110,6 @@ double EstimateNoise(const std::vector<AlignedSample>& aligned,
   }
   return 1;
 }
-
-// The prior: whitened parameters are standard normal, so they are their own residuals.
-class WhitenedPriorCost
-    : public ceres::SizedCostFunction<kNumCameraParameters, kNumCameraParameters> {
- public:
-  bool Evaluate(double const* const* parameters,
-                double* residuals,
-                double** jacobians) const override {
-    std::copy_n(parameters[0], kNumCameraParameters, residuals);
-    if (jacobians && jacobians[0]) {
-      Eigen::Map<CameraCovariance> by_whitened(jacobians[0]);
-      by_whitened.setIdentity();
-    }
-    return true;
-  }
-};
 
 // One robust step: correspondences held, Ceres solves for the whitened parameters.
 void Solve(const std::vector<AlignedSample>& aligned,
