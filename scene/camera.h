@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
-#include <optional>
+#include "scene/frames.h"
 
 #include <Eigen/Dense>
 
-#include "scene/frames.h"
+#include <optional>
 
 namespace groundglass {
 

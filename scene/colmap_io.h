@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/camera.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "scene/camera.h"
 
 namespace groundglass {
 

@@ -251,8 +251,10 @@ std::vector<VisibleSpan> FindVisibleSpans(const PolygonModel& model,
     Eigen::Vector3d a = camera.cam_from_world * edge.start_in_world;
     Eigen::Vector3d b = camera.cam_from_world * edge.end_in_world;
     if (!ClipToFrame(frame, tolerance, a, b)) continue;
-    const Eigen::Vector2d a_px(camera.focal_x_px * a.x() / a.z(), camera.focal_y_px * a.y() / a.z());
-    const Eigen::Vector2d b_px(camera.focal_x_px * b.x() / b.z(), camera.focal_y_px * b.y() / b.z());
+    const Eigen::Vector2d a_px(camera.focal_x_px * a.x() / a.z(),
+                               camera.focal_y_px * a.y() / a.z());
+    const Eigen::Vector2d b_px(camera.focal_x_px * b.x() / b.z(),
+                               camera.focal_y_px * b.y() / b.z());
     const double length_px = (b_px - a_px).norm();
     if (length_px < 0.5) continue;
 

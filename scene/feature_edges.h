@@ -2,13 +2,13 @@
 // Part of Groundglass.
 #pragma once
 
-#include <vector>
-
-#include <Eigen/Dense>
-
 #include "scene/camera.h"
 #include "scene/polygon_model.h"
 #include "scene/visibility.h"
+
+#include <Eigen/Dense>
+
+#include <vector>
 
 namespace groundglass {
 
@@ -42,10 +42,10 @@ std::vector<ModelEdge> FindModelEdges(const PolygonModel& model);
 
 // A part of an edge that a camera sees.
 struct VisibleSpan {
-  int edge = -1;                    // in the list of FindModelEdges
+  int edge = -1;  // in the list of FindModelEdges
   Eigen::Vector3d start_in_world = Eigen::Vector3d::Zero();
   Eigen::Vector3d end_in_world = Eigen::Vector3d::Zero();
-  bool is_silhouette = false;       // one side of the line is not the model's near surface
+  bool is_silhouette = false;  // one side of the line is not the model's near surface
 };
 
 // Hidden-line removal: the visible spans of all drawn edges, clipped to the frame widened by

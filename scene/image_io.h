@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/image.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "scene/image.h"
 
 namespace groundglass {
 

@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #pragma once
 
+#include <Eigen/Dense>
+
 #include <filesystem>
 #include <string>
-
-#include <Eigen/Dense>
 
 namespace groundglass {
 

@@ -2,18 +2,18 @@
 // Part of Groundglass.
 #pragma once
 
-#include <filesystem>
-
 #include "scene/osu_io.h"
 #include "scene/polygon_model.h"
+
+#include <filesystem>
 
 namespace groundglass {
 
 // How a right-handed mesh file's axes map to `world`.
 enum class MeshAxes {
-  kWorld,     // x east, y north, z up: taken as it is
-  kSite,      // x east, y south, z up, left-handed as in .osu
-  kYUp,       // x east, y up, z south (glTF): world = (x, -z, y)
+  kWorld,  // x east, y north, z up: taken as it is
+  kSite,   // x east, y south, z up, left-handed as in .osu
+  kYUp,    // x east, y up, z south (glTF): world = (x, -z, y)
 };
 
 struct ModelOptions {

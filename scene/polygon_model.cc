@@ -2,9 +2,9 @@
 // Part of Groundglass.
 #include "scene/polygon_model.h"
 
-#include <cmath>
-
 #include "scene/frames.h"
+
+#include <cmath>
 
 namespace groundglass {
 namespace {

@@ -2,12 +2,12 @@
 // Part of Groundglass.
 #pragma once
 
+#include <Eigen/Dense>
+
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <Eigen/Dense>
 
 namespace groundglass {
 

@@ -2,15 +2,15 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/camera.h"
+#include "scene/view_tag.h"
+
+#include <Eigen/Dense>
+
 #include <array>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <Eigen/Dense>
-
-#include "scene/camera.h"
-#include "scene/view_tag.h"
 
 namespace groundglass {
 
@@ -43,16 +43,16 @@ struct Registration {
   Verdict verdict = Verdict::kRejected;
   std::vector<std::string> reasons;  // why not accepted; which direction is free; the rival
   ViewTag measured;
-  ViewTag corrected;                 // equals `measured` when rejected
+  ViewTag corrected;                                   // equals `measured` when rejected
   CameraParameters sigmas = CameraParameters::Zero();  // posterior standard deviations
   CameraParameters prior_sigmas = CameraParameters::Zero();
   CameraCovariance covariance = CameraCovariance::Zero();
   std::vector<std::string> undetermined;  // parameters no better known than before
-  int num_samples = 0;               // edge samples with a match
-  double rms_px = 0;                 // of their residuals
-  double score_nats = 0;             // above zero: better than chance
-  double margin_nats = 0;            // over the best rival
-  double moved_px = 0;               // mean displacement of the model's visible edges by the correction
+  int num_samples = 0;                    // edge samples with a match
+  double rms_px = 0;                      // of their residuals
+  double score_nats = 0;                  // above zero: better than chance
+  double margin_nats = 0;                 // over the best rival
+  double moved_px = 0;  // mean displacement of the model's visible edges by the correction
 
   Camera MeasuredCamera() const { return CameraFromTag(measured, width_px, height_px); }
   Camera CorrectedCamera() const { return CameraFromTag(corrected, width_px, height_px); }

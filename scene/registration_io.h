@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/registration.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "scene/registration.h"
 
 namespace groundglass {
 

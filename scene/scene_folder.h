@@ -2,15 +2,15 @@
 // Part of Groundglass.
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "scene/image_io.h"
 #include "scene/model_io.h"
 #include "scene/polygon_model.h"
 #include "scene/view_tag.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace groundglass {
 
@@ -18,9 +18,9 @@ namespace groundglass {
 struct Photograph {
   std::string name;  // the stem: "s5"
   std::filesystem::path image_file;
-  ImageSize size;    // px, orientation applied
+  ImageSize size;  // px, orientation applied
   ViewTag tag;
-  std::filesystem::path view_file;             // empty if the tag came from tags.csv
+  std::filesystem::path view_file;                  // empty if the tag came from tags.csv
   std::optional<std::filesystem::path> mask_file;   // white = ignore
   std::optional<std::filesystem::path> faces_file;  // hand-painted face mask
 };

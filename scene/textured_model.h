@@ -2,12 +2,12 @@
 // Part of Groundglass.
 #pragma once
 
-#include <vector>
+#include "scene/image.h"
+#include "scene/polygon_model.h"
 
 #include <Eigen/Dense>
 
-#include "scene/image.h"
-#include "scene/polygon_model.h"
+#include <vector>
 
 namespace groundglass {
 

@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "scene/image_io.h"
 #include "scene/textured_model.h"
+
+#include <filesystem>
+#include <string>
 
 namespace groundglass {
 

@@ -2,47 +2,86 @@
 // Part of Groundglass.
 #include "scene/view_tag.h"
 
+#include "scene/frames.h"
+
 #include <cassert>
 #include <cmath>
-
-#include "scene/frames.h"
 
 namespace groundglass {
 
 double GetTagValue(const ViewTag& tag, TagKey key) {
   switch (key) {
-    case TagKey::kX: return tag.position_in_site.x();
-    case TagKey::kY: return tag.position_in_site.y();
-    case TagKey::kZ: return tag.position_in_site.z();
-    case TagKey::kI: return tag.lookat_in_site.x();
-    case TagKey::kJ: return tag.lookat_in_site.y();
-    case TagKey::kK: return tag.lookat_in_site.z();
-    case TagKey::kA: return tag.aspect;
-    case TagKey::kV: return tag.view_angle_deg;
-    case TagKey::kRoll: return tag.roll_deg;
-    case TagKey::kShiftX: return tag.shift_x;
-    case TagKey::kShiftY: return tag.shift_y;
-    case TagKey::kK1: return tag.k1;
-    case TagKey::kK2: return tag.k2;
+    case TagKey::kX:
+      return tag.position_in_site.x();
+    case TagKey::kY:
+      return tag.position_in_site.y();
+    case TagKey::kZ:
+      return tag.position_in_site.z();
+    case TagKey::kI:
+      return tag.lookat_in_site.x();
+    case TagKey::kJ:
+      return tag.lookat_in_site.y();
+    case TagKey::kK:
+      return tag.lookat_in_site.z();
+    case TagKey::kA:
+      return tag.aspect;
+    case TagKey::kV:
+      return tag.view_angle_deg;
+    case TagKey::kRoll:
+      return tag.roll_deg;
+    case TagKey::kShiftX:
+      return tag.shift_x;
+    case TagKey::kShiftY:
+      return tag.shift_y;
+    case TagKey::kK1:
+      return tag.k1;
+    case TagKey::kK2:
+      return tag.k2;
   }
   return 0;
 }
 
 void SetTagValue(ViewTag& tag, TagKey key, double value) {
   switch (key) {
-    case TagKey::kX: tag.position_in_site.x() = value; return;
-    case TagKey::kY: tag.position_in_site.y() = value; return;
-    case TagKey::kZ: tag.position_in_site.z() = value; return;
-    case TagKey::kI: tag.lookat_in_site.x() = value; return;
-    case TagKey::kJ: tag.lookat_in_site.y() = value; return;
-    case TagKey::kK: tag.lookat_in_site.z() = value; return;
-    case TagKey::kA: tag.aspect = value; return;
-    case TagKey::kV: tag.view_angle_deg = value; return;
-    case TagKey::kRoll: tag.roll_deg = value; return;
-    case TagKey::kShiftX: tag.shift_x = value; return;
-    case TagKey::kShiftY: tag.shift_y = value; return;
-    case TagKey::kK1: tag.k1 = value; return;
-    case TagKey::kK2: tag.k2 = value; return;
+    case TagKey::kX:
+      tag.position_in_site.x() = value;
+      return;
+    case TagKey::kY:
+      tag.position_in_site.y() = value;
+      return;
+    case TagKey::kZ:
+      tag.position_in_site.z() = value;
+      return;
+    case TagKey::kI:
+      tag.lookat_in_site.x() = value;
+      return;
+    case TagKey::kJ:
+      tag.lookat_in_site.y() = value;
+      return;
+    case TagKey::kK:
+      tag.lookat_in_site.z() = value;
+      return;
+    case TagKey::kA:
+      tag.aspect = value;
+      return;
+    case TagKey::kV:
+      tag.view_angle_deg = value;
+      return;
+    case TagKey::kRoll:
+      tag.roll_deg = value;
+      return;
+    case TagKey::kShiftX:
+      tag.shift_x = value;
+      return;
+    case TagKey::kShiftY:
+      tag.shift_y = value;
+      return;
+    case TagKey::kK1:
+      tag.k1 = value;
+      return;
+    case TagKey::kK2:
+      tag.k2 = value;
+      return;
   }
 }
 
@@ -80,8 +119,7 @@ ViewTag TagFromCamera(const Camera& camera, double lookat_distance) {
   const Eigen::Vector3d forward = camera.ForwardInWorld();
   tag.position_in_site = SiteFromWorld(position);
   tag.lookat_in_site = SiteFromWorld(position + lookat_distance * forward);
-  tag.view_angle_deg =
-      DegreesFromRadians(2 * std::atan(camera.width_px / (2 * camera.focal_x_px)));
+  tag.view_angle_deg = DegreesFromRadians(2 * std::atan(camera.width_px / (2 * camera.focal_x_px)));
   tag.aspect = camera.focal_y_px * camera.width_px / (camera.focal_x_px * camera.height_px);
   const Eigen::Vector3d level_right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
   const Eigen::Vector3d level_down = forward.cross(level_right);

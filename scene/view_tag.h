@@ -2,26 +2,26 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/camera.h"
+
+#include <Eigen/Dense>
+
 #include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include <Eigen/Dense>
-
-#include "scene/camera.h"
-
 namespace groundglass {
 
 // One standard deviation of what was measured, where the field notes say; units as the key's.
 struct TagSigmas {
-  std::optional<double> position;    // across (x and y each), model's unit
-  std::optional<double> height;      // z, model's unit
-  std::optional<double> lookat;      // each of i, j, k, model's unit
+  std::optional<double> position;  // across (x and y each), model's unit
+  std::optional<double> height;    // z, model's unit
+  std::optional<double> lookat;    // each of i, j, k, model's unit
   std::optional<double> roll_deg;
   std::optional<double> view_angle_deg;
   std::optional<double> aspect;
-  std::optional<double> shift;       // each way, fraction of the frame's width
+  std::optional<double> shift;  // each way, fraction of the frame's width
   std::optional<double> k1;
 
   bool operator==(const TagSigmas&) const = default;
@@ -32,15 +32,15 @@ struct TagSigmas {
 struct ViewTag {
   Eigen::Vector3d position_in_site = Eigen::Vector3d::Zero();
   Eigen::Vector3d lookat_in_site = Eigen::Vector3d::UnitX();
-  double aspect = 1.5;           // width / height of the frame
-  double view_angle_deg = 58;    // horizontal
-  double roll_deg = 0;           // positive: camera turned clockwise as its operator sees it
-  double shift_x = 0;            // principal point from the frame's centre, right positive,
-  double shift_y = 0;            //   down positive; both as a fraction of the frame's WIDTH
-  double k1 = 0;                 // radial distortion on normalised coordinates
+  double aspect = 1.5;         // width / height of the frame
+  double view_angle_deg = 58;  // horizontal
+  double roll_deg = 0;         // positive: camera turned clockwise as its operator sees it
+  double shift_x = 0;          // principal point from the frame's centre, right positive,
+  double shift_y = 0;          //   down positive; both as a fraction of the frame's WIDTH
+  double k1 = 0;               // radial distortion on normalised coordinates
   double k2 = 0;
   TagSigmas sigmas;
-  std::string camera;            // photographs with the same name share a lens; may be empty
+  std::string camera;  // photographs with the same name share a lens; may be empty
 
   bool operator==(const ViewTag&) const = default;
 };

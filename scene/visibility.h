@@ -2,14 +2,14 @@
 // Part of Groundglass.
 #pragma once
 
-#include <memory>
-#include <optional>
-
-#include <Eigen/Dense>
-
 #include "scene/camera.h"
 #include "scene/image.h"
 #include "scene/polygon_model.h"
+
+#include <Eigen/Dense>
+
+#include <memory>
+#include <optional>
 
 namespace groundglass {
 
@@ -24,9 +24,9 @@ class Visibility {
   Visibility& operator=(Visibility&&) noexcept;
 
   struct Hit {
-    int face = -1;              // in the model, from 0
-    double distance = 0;        // in the model's unit
-    bool is_front = true;       // the ray met the face's front
+    int face = -1;         // in the model, from 0
+    double distance = 0;   // in the model's unit
+    bool is_front = true;  // the ray met the face's front
   };
   // The first face along a ray; direction of unit length. Hits nearer than min_distance and
   // beyond max_distance do not count.
