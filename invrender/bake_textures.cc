@@ -68,7 +68,8 @@ void CountTexels(const Chart& chart,
       if (texels.FaceAt(x, y) < 0 || !texels.IsCentreInside(x, y)) continue;
       FaceCoverage& face = coverage.faces[texels.FaceAt(x, y)];
       ++face.num_texels;
-      if (*pixels.provenance.At(x, y) != kProvenanceNone) {
+      const uint16_t source = *pixels.provenance.At(x, y);
+      if (source != kProvenanceNone && source != kProvenanceFilled) {
         ++face.num_covered_texels;
         continue;
       }
@@ -228,8 +229,8 @@ BakeResult BakeTextures(const PolygonModel& model,
       const ChartChoice choice = ChooseCells(cells[i], i, matched, options);
       ChartPixels pixels =
           ComposeChart(chart, i, texels, photos, cells[i], choice, printed, options);
-      MarkSlits(pixels);
       SpreadIntoWeakTexels(pixels);
+      CloseSlits(pixels);
       // Faces and pages' rectangles of different charts do not overlap: no lock.
       CountTexels(chart, texels, pixels, result.coverage);
       AddSources(sorted, pixels, result.coverage);

@@ -18,12 +18,18 @@ struct Ingredient {
   Sighting sighting;
 };
 
-// The four cells around a texel and their bilinear weights.
+// The four cells around a texel and their bilinear weights; the texel's own cell alone where seams
+// are hard.
 struct CellBlend {
   int cells[4];
   double weights[4];
 
-  CellBlend(int x, int y, const ChartCells& grid) {
+  CellBlend(int x, int y, const ChartCells& grid, bool is_smooth) {
+    if (!is_smooth) {
+      std::fill_n(cells, 4, y / kCellTexels * grid.width + x / kCellTexels);
+      std::fill_n(weights, 4, 0.25);
+      return;
+    }
     const double cx = std::clamp((x + 0.5) / kCellTexels - 0.5, 0.0, grid.width - 1.0);
     const double cy = std::clamp((y + 0.5) / kCellTexels - 0.5, 0.0, grid.height - 1.0);
     const int x0 = static_cast<int>(cx);
@@ -67,7 +73,7 @@ class Composer {
     ingredients.clear();
     const Eigen::Vector3d point = chart_.PointInWorld(texels_.PointAt(x, y));
     const int face = texels_.FaceAt(x, y);
-    const CellBlend blend(x, y, cells_);
+    const CellBlend blend(x, y, cells_, options_.smooth_seams);
     double chosen = 0;
     for (int corner = 0; corner < 4; ++corner) {
       const int k = choice_.best[blend.cells[corner]];

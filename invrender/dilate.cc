@@ -89,40 +89,6 @@ void Grow(Image8& srgb8,
 
 }  // namespace
 
-void MarkSlits(ChartPixels& pixels) {
-  constexpr int kReach = 3;
-  const int width = pixels.states.width;
-  const int height = pixels.states.height;
-  const Raster<uint8_t> before = pixels.states;
-  // The first texel that is not open in one direction: outside the chart counts as kOutside;
-  // kOpen if there is none within reach.
-  const auto look = [&](int x, int y, int dx, int dy) {
-    for (int step = 1; step <= kReach; ++step) {
-      const int i = x + step * dx;
-      const int j = y + step * dy;
-      if (i < 0 || j < 0 || i >= width || j >= height) return TexelState::kOutside;
-      const auto state = static_cast<TexelState>(*before.At(i, j));
-      if (state != TexelState::kOpen) return state;
-    }
-    return TexelState::kOpen;
-  };
-  const auto is_slit = [](TexelState a, TexelState b) {
-    return a != TexelState::kOpen && b != TexelState::kOpen &&
-           (a != TexelState::kOutside || b != TexelState::kOutside);
-  };
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      if (static_cast<TexelState>(*before.At(x, y)) != TexelState::kOpen) continue;
-      if (!is_slit(look(x, y, -1, 0), look(x, y, 1, 0)) &&
-          !is_slit(look(x, y, 0, -1), look(x, y, 0, 1))) {
-        continue;
-      }
-      *pixels.states.At(x, y) = static_cast<uint8_t>(TexelState::kWeak);
-      *pixels.reach.At(x, y) = kReach;
-    }
-  }
-}
-
 void SpreadIntoWeakTexels(ChartPixels& pixels) {
   Raster<uint8_t> known(pixels.states.width, pixels.states.height, 1);
   Raster<uint8_t> wanted(pixels.states.width, pixels.states.height, 1);
@@ -132,6 +98,51 @@ void SpreadIntoWeakTexels(ChartPixels& pixels) {
     wanted.values[i] = state == TexelState::kWeak ? pixels.reach.values[i] : 0;
   }
   Grow(pixels.srgb8, pixels.provenance, known, wanted, false);
+}
+
+void CloseSlits(ChartPixels& pixels) {
+  constexpr int kReach = 3;
+  const int width = pixels.states.width;
+  const int height = pixels.states.height;
+  // The first texel that is not open in one direction: outside the chart counts as kOutside;
+  // kOpen if there is none within reach.
+  const auto look = [&](int x, int y, int dx, int dy) {
+    for (int step = 1; step <= kReach; ++step) {
+      const int i = x + step * dx;
+      const int j = y + step * dy;
+      if (i < 0 || j < 0 || i >= width || j >= height) return TexelState::kOutside;
+      const auto state = static_cast<TexelState>(*pixels.states.At(i, j));
+      if (state != TexelState::kOpen) return state;
+    }
+    return TexelState::kOpen;
+  };
+  const auto is_slit = [](TexelState a, TexelState b) {
+    return a != TexelState::kOpen && b != TexelState::kOpen &&
+           (a != TexelState::kOutside || b != TexelState::kOutside);
+  };
+  Raster<uint8_t> known(width, height, 1);
+  Raster<uint8_t> wanted(width, height, 1);
+  std::vector<size_t> slits;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto state = static_cast<TexelState>(*pixels.states.At(x, y));
+      *known.At(x, y) = state == TexelState::kGood || state == TexelState::kWeak;
+      if (state != TexelState::kOpen) continue;
+      if (!is_slit(look(x, y, -1, 0), look(x, y, 1, 0)) &&
+          !is_slit(look(x, y, 0, -1), look(x, y, 0, 1))) {
+        continue;
+      }
+      *wanted.At(x, y) = kReach;
+      slits.push_back(static_cast<size_t>(y) * width + x);
+    }
+  }
+  if (slits.empty()) return;
+  Grow(pixels.srgb8, pixels.provenance, known, wanted, true);
+  for (const size_t i : slits) {
+    if (!known.values[i]) continue;
+    pixels.provenance.values[i] = kProvenanceFilled;
+    pixels.states.values[i] = static_cast<uint8_t>(TexelState::kWeak);
+  }
 }
 
 void PlaceOnPage(const Chart& chart,

@@ -6,13 +6,14 @@
 
 namespace groundglass {
 
-// Open texels in slits and specks narrower than a few texels, covered on one side at least, become
-// weak: no photograph's pixel grid decides whether a hairline of a wall was seen.
-void MarkSlits(ChartPixels& pixels);
-
 // Weak texels within their reach of good ones take their colour from them: the last pixel before
 // an edge of the model shows the sky as much as the wall.
 void SpreadIntoWeakTexels(ChartPixels& pixels);
+
+// Open texels in slits and specks narrower than a few texels, covered on one side at least, take
+// the colour beside them, so that no black hairline shows. No photograph showed them: their
+// provenance is kProvenanceFilled.
+void CloseSlits(ChartPixels& pixels);
 
 // Copies a chart to its page and repeats its border around it, `gutter_texels` wide, so that
 // filters near the border find only the face's own colour.

@@ -89,6 +89,17 @@ double PreparedPhoto::RadiusSquared(const Eigen::Vector2d& image_px) const {
   return (image_px - half).squaredNorm() / half.squaredNorm();
 }
 
+bool PreparedPhoto::IsPaintedBeside(const Eigen::Vector2d& image_px, int face) const {
+  const int x0 = static_cast<int>(std::floor(image_px.x() - 0.5));
+  const int y0 = static_cast<int>(std::floor(image_px.y() - 0.5));
+  for (int y = std::max(0, y0); y <= std::min(labels_.height - 1, y0 + 1); ++y) {
+    for (int x = std::max(0, x0); x <= std::min(labels_.width - 1, x0 + 1); ++x) {
+      if (*labels_.At(x, y) == face + 1 && *border_.At(x, y) != 0) return true;
+    }
+  }
+  return false;
+}
+
 std::optional<Sighting> PreparedPhoto::Sight(const Eigen::Vector3d& point_in_world,
                                              const Chart& chart,
                                              int chart_index,
@@ -109,7 +120,8 @@ std::optional<Sighting> PreparedPhoto::Sight(const Eigen::Vector3d& point_in_wor
   const double border_px = *border_.At(x, y) / kBorderStepsPerPx;
   const bool is_own = label != 0 && chart_of_face_[label - 1] == chart_index;
   if (is_hand_painted_) {
-    if (label != face + 1 || border_px == 0) return std::nullopt;
+    const bool is_painted = label == face + 1;
+    if (is_painted ? border_px == 0 : !IsPaintedBeside(*image_px, face)) return std::nullopt;
   } else if (border_px < 1.5 + kCreaseBonusPx) {
     // The pixel's centre does not speak for its whole: ask for the very point.
     if (border_px == 0 && is_own) return std::nullopt;  // ignored
@@ -120,7 +132,7 @@ std::optional<Sighting> PreparedPhoto::Sight(const Eigen::Vector3d& point_in_wor
 
   Sighting sighting;
   sighting.image_px = *image_px;
-  sighting.border_px = is_own ? border_px : 0;
+  sighting.border_px = is_own ? border_px : 0;  // 0 also half a pixel beside what was painted
   // d(image) / d(point), through the distortion.
   const Eigen::Vector2d n = in_cam.hnormalized();
   const double r2 = n.squaredNorm();

@@ -48,6 +48,10 @@ class PreparedPhoto {
   bool MayTexture(int face) const { return allowed_.empty() || allowed_[face]; }
 
  private:
+  // Painted masks are as coarse as pixels: a face goes half a pixel on beyond the centres of those
+  // painted with its number.
+  bool IsPaintedBeside(const Eigen::Vector2d& image_px, int face) const;
+
   const Visibility& visibility_;
   const std::vector<int>& chart_of_face_;
   Camera camera_;

@@ -91,6 +91,7 @@ TEST(BakeTextures, LongWallGetsAllThatFivePhotographsShow) {
   const BakeResult result = BakeTextures(model, photographs, Plain());
   long num_seen = 0;
   long num_unseen = 0;
+  long num_filled = 0;
   for (const PlacedTexel& texel : TexelsOf(result.model, wall)) {
     double deepest = -1;  // how far inside a frame the texel lies, px
     for (const BakePhotograph& photograph : photographs) {
@@ -101,18 +102,25 @@ TEST(BakeTextures, LongWallGetsAllThatFivePhotographsShow) {
     if (deepest > 4) {
       ++num_seen;
       ASSERT_NE(texel.source, kProvenanceNone) << texel.point_in_world.transpose();
+      ASSERT_NE(texel.source, kProvenanceFilled) << texel.point_in_world.transpose();
       // The last texels before the border repeat those farther in.
       ASSERT_LT((texel.radiance - Waves(texel.point_in_world)).abs().maxCoeff(),
                 texel.texels_from_border < 5 ? 0.12f : 0.06f)
           << texel.point_in_world.transpose();
-    } else if (deepest < 0 && texel.texels_from_border >= 5) {  // slits at borders are closed
+    } else if (deepest < 0) {
       ++num_unseen;
+      if (texel.source == kProvenanceFilled) {  // in a slit beside the wall's border
+        ++num_filled;
+        ASSERT_LT(texel.texels_from_border, 3) << texel.point_in_world.transpose();
+        continue;
+      }
       ASSERT_EQ(texel.source, kProvenanceNone) << texel.point_in_world.transpose();
       ASSERT_EQ(texel.radiance.maxCoeff(), 0);
     }
   }
   EXPECT_GT(num_seen, 50000);
   EXPECT_GT(num_unseen, 1000);
+  EXPECT_LT(num_filled, num_unseen / 20);
   EXPECT_EQ(result.coverage.faces[wall].sources.size(), 5u);
   const double share = static_cast<double>(num_seen) / (num_seen + num_unseen);
   EXPECT_NEAR(result.coverage.CoveredShare(), share, 0.03);
@@ -186,10 +194,7 @@ TEST(BakeTextures, PillarIsNotPrintedOnTheWallBehindIt) {
   for (const PlacedTexel& texel : TexelsOf(result.model, wall)) {
     if (texel.source == 0) continue;
     ++num_covered;
-    // The very pixel in which wall and pillar meet shows both.
-    const double from_pillar = std::abs(texel.point_in_world.x() - 15) - 1;
-    ASSERT_LT(texel.radiance[0], from_pillar < 0.08 ? 0.4f : 0.14f)
-        << texel.point_in_world.transpose();
+    ASSERT_LT(texel.radiance[0], 0.14f) << texel.point_in_world.transpose();
   }
   // All of the wall but what stands inside the pillar.
   EXPECT_NEAR(result.coverage.faces[wall].covered_area, 30 * 12 - 2 * 12, 5);
