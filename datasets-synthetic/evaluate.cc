@@ -123,8 +123,8 @@ void EvaluateTextures(const fs::path& found,
   if (!options.render || !fs::exists(file)) return;
   TexturedModel model = ReadTexturedModel(file);
   ReadProvenance(found, model);
-  if (!truth.texels_file.empty()) {
-    evaluation.texels = MeasureTexels(model, ReadTexels(truth.texels_file));
+  if (!truth.surfaces_folder.empty()) {
+    evaluation.texels = MeasureTexels(model, truth.surfaces_folder);
   }
   for (const NovelView& view : truth.novel_views) {
     const Image8 true_srgb8 = ReadSrgb8(view.image_file);

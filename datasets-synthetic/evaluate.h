@@ -4,7 +4,7 @@
 
 #include "datasets-synthetic/camera_errors.h"
 #include "datasets-synthetic/picture_measures.h"
-#include "datasets-synthetic/texel_truth.h"
+#include "datasets-synthetic/texel_errors.h"
 #include "datasets-synthetic/truth.h"
 #include "scene/polygon_model.h"
 #include "scene/registration.h"

@@ -150,10 +150,10 @@ std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonMod
                     100 * view.errors.coverage);
   }
   if (evaluation.texels) {
-    text += Printed("texels: RMS %.2f levels of 255 over %ld covered of %ld samples\n",
+    text += Printed("texels: RMS %.2f levels of 255 over %ld covered of %ld exact ones\n",
                     evaluation.texels->rms_levels,
                     evaluation.texels->num_covered,
-                    evaluation.texels->num_samples);
+                    evaluation.texels->num_texels);
     std::vector<std::pair<double, int>> rms_of_face;
     for (size_t i = 0; i < evaluation.texels->faces.size(); ++i) {
       const TexelErrors::OfFace& face = evaluation.texels->faces[i];
@@ -219,15 +219,17 @@ std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonMode
   }
   if (evaluation.texels) {
     json["texels"] = {{"rms_levels", evaluation.texels->rms_levels},
-                      {"num_samples", evaluation.texels->num_samples},
+                      {"num_texels", evaluation.texels->num_texels},
                       {"num_covered", evaluation.texels->num_covered},
                       {"gain", evaluation.texels->gain}};
     json["texels"]["faces"] = nlohmann::ordered_json::array();
     for (size_t i = 0; i < evaluation.texels->faces.size(); ++i) {
       const TexelErrors::OfFace& face = evaluation.texels->faces[i];
       if (face.num_covered == 0) continue;
-      json["texels"]["faces"].push_back(
-          {{"face", i + 1}, {"num_covered", face.num_covered}, {"rms_levels", face.rms_levels}});
+      json["texels"]["faces"].push_back({{"face", i + 1},
+                                         {"num_texels", face.num_texels},
+                                         {"num_covered", face.num_covered},
+                                         {"rms_levels", face.rms_levels}});
     }
   }
   return json.dump(2) + "\n";

@@ -25,6 +25,7 @@ void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("seed", recipe.seed);
   visit("relief", recipe.relief);
   visit("plain", recipe.is_plain);
+  visit("surface_texel", recipe.surface_texel);
   visit("notebook/sigma_position", recipe.notebook.sigma_position);
   visit("notebook/sigma_height", recipe.notebook.sigma_height);
   visit("notebook/sigma_lookat", recipe.notebook.sigma_lookat);
@@ -83,6 +84,9 @@ void SynthRecipe::Check() const {
   }
   if (num_views < 0) throw Error("recipe field views must not be negative");
   if (relief > 2) throw Error("recipe field relief must be at most 2");
+  if (surface_texel < 0.03 || surface_texel > 10) {
+    throw Error("recipe field surface_texel must be 0.03 to 10");
+  }
   if (notebook.blunders < 0) throw Error("recipe field notebook/blunders must not be negative");
   if (photo.spoilt_share > 1) throw Error("recipe field photo/spoilt_share must be at most 1");
   if (photo.bits != 8 && photo.bits != 16) throw Error("recipe field photo/bits must be 8 or 16");

@@ -24,6 +24,9 @@ struct SynthRecipe {
   double relief = 1;
   // Every face in one even colour: nothing but the model's own edges.
   bool is_plain = false;
+  // How wide the texels of truth/surfaces are, in the model's unit: about what a slide resolves
+  // from across a plaza.
+  double surface_texel = 0.125;
   uint64_t seed = 1988;
 
   // The notebook: one standard deviation of what was measured, and what a tape resolves, in the

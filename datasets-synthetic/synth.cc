@@ -7,7 +7,7 @@
 #include "datasets-synthetic/noise.h"
 #include "datasets-synthetic/planned_scene.h"
 #include "datasets-synthetic/ray_tracer.h"
-#include "datasets-synthetic/texel_truth.h"
+#include "datasets-synthetic/surface_truth.h"
 #include "datasets-synthetic/truth_json.h"
 #include "scene/atomic_file.h"
 #include "scene/colmap_io.h"
@@ -197,15 +197,13 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
   const Box bounds = ComputeBounds(model);
   const SkyMap sky_map(planned.world, clean_visibility, bounds.Center(), 1.5 * bounds.Diagonal());
   const Daylight overcast = MakeOvercast(SeedFor(recipe.seed, "novel"));
-  constexpr int kNumTexelSamples = 12000;
-  WriteFileAtomically(folder / "truth" / "texels.csv",
-                      FormatTexels(SampleTexels(planned.world,
-                                                model,
-                                                clean_visibility,
-                                                sky_map,
-                                                overcast,
-                                                kNumTexelSamples,
-                                                recipe.seed)));
+  WriteSurfaces(folder / "truth" / "surfaces",
+                planned.world,
+                model,
+                clean_visibility,
+                sky_map,
+                overcast,
+                {.texel = recipe.surface_texel});
   const OccluderSite site = SiteOf(model, plans);
   SyntheticWorld furnished = planned.world;
   WorldBuilder furnisher(furnished, SeedFor(recipe.seed, "occluders"));

@@ -62,7 +62,7 @@ Truth ReadTruth(const fs::path& folder) {
   }
   if (fs::is_directory(folder / "masks_model")) truth.masks_model_folder = folder / "masks_model";
   if (fs::is_directory(folder / "masks_occ")) truth.masks_occ_folder = folder / "masks_occ";
-  if (fs::exists(folder / "texels.csv")) truth.texels_file = folder / "texels.csv";
+  if (fs::is_directory(folder / "surfaces")) truth.surfaces_folder = folder / "surfaces";
   return truth;
 }
 

@@ -29,7 +29,7 @@ struct Truth {
   // The photographs' face masks without and with what stands before the model; empty if absent.
   std::filesystem::path masks_model_folder;
   std::filesystem::path masks_occ_folder;
-  std::filesystem::path texels_file;  // exact colours of small squares of the walls; may be empty
+  std::filesystem::path surfaces_folder;  // exact colours of the building; may be empty
 };
 
 // Throws Error naming the folder or file at fault.

@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "scene/osu_io.h"
 #include "scene/textured_model_io.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,8 +55,7 @@ TEST(Evaluate, AFolderWithoutCamerasIsAnError) {
 
 // A textured model whose cameras are kept elsewhere; without texture it covers nothing.
 TEST(Evaluate, AModelAloneIsJudgedByItsNovelViews) {
-  std::string pattern = (std::filesystem::temp_directory_path() / "evaluate-XXXXXX").string();
-  const std::filesystem::path folder = mkdtemp(pattern.data());
+  const TemporaryFolder folder;
   TexturedModel untextured;
   untextured.model = BrickModel();
   untextured.faces.resize(untextured.model.faces.size());
@@ -65,8 +65,7 @@ TEST(Evaluate, AModelAloneIsJudgedByItsNovelViews) {
     return Image8(camera.width_px, camera.height_px, 3, 128);
   };
   const Evaluation evaluation =
-      Evaluate(folder, ReadTruth(kBrick / "truth"), BrickModel(), options);
-  std::filesystem::remove_all(folder);
+      Evaluate(folder.path(), ReadTruth(kBrick / "truth"), BrickModel(), options);
   EXPECT_TRUE(evaluation.photographs.empty());
   ASSERT_EQ(evaluation.novel_views.size(), 3u);
   EXPECT_EQ(evaluation.novel_views[0].errors.coverage, 0);

@@ -5,6 +5,7 @@
 #include "scene/image_io.h"
 #include "scene/osu_io.h"
 #include "scene/visibility.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -82,13 +83,13 @@ std::optional<double> StepOffset(const ImageF& radiance,
 // The whole promise of `pure`: where the true camera projects the model's edges, there the picture
 // has them, with nothing beside them that pulls.
 TEST(Pure, EdgesLieInThePictureWhereTheTrueCameraProjectsThem) {
-  std::string pattern = (fs::temp_directory_path() / "pure-test-XXXXXX").string();
-  const fs::path folder = mkdtemp(pattern.data());
+  const TemporaryFolder folder;
   SynthRecipe recipe = PresetRecipe("pure");
   recipe.width_px = 480;
   recipe.height_px = 320;
   recipe.num_views = 4;
   recipe.photo.bits = 16;
+  recipe.surface_texel = 1;
   WriteSyntheticScene(recipe, folder / "pure");
   const Truth truth = ReadTruth(folder / "pure" / "truth");
   const PolygonModel model = ReadOsu(folder / "pure" / "model.osu").model;
@@ -128,7 +129,6 @@ TEST(Pure, EdgesLieInThePictureWhereTheTrueCameraProjectsThem) {
   }
   EXPECT_LT(std::sqrt(sum_squares / num_steps), 0.1);
   RecordProperty("rms_px", std::to_string(std::sqrt(sum_squares / num_steps)));
-  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -3,10 +3,12 @@
 #include "datasets-synthetic/synth.h"
 
 #include "datasets-synthetic/evaluate.h"
+#include "datasets-synthetic/surface_truth.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/scene_folder.h"
 #include "scene/view_io.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,20 +24,6 @@ namespace groundglass {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder of this test's own, gone when it ends.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "synth-test-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 std::map<std::string, std::string> ReadFolder(const fs::path& folder) {
   std::map<std::string, std::string> bytes_of_name;
@@ -54,6 +42,7 @@ SynthRecipe SmallRecipe() {
   recipe.width_px = 120;
   recipe.height_px = 80;
   recipe.num_views = 5;
+  recipe.surface_texel = 0.5;
   return recipe;
 }
 
@@ -80,7 +69,7 @@ TEST(Synth, SameRecipeGivesSameBytesWhateverTheThreads) {
   EXPECT_GT(tags.all.mean_px, 0.3);
   EXPECT_LT(tags.all.mean_px, 4);  // at 120 px wide
 
-  EXPECT_GT(ReadTexels(truth.texels_file).size(), 5000u);
+  EXPECT_EQ(ReadCharts(truth.surfaces_folder).size(), scene.model.faces.size());
 
   // The thesis' own figures, comments aside.
   const ViewTag s5 = ReadView(folder / "one" / "views/s5.view");
@@ -100,6 +89,7 @@ TEST(Synth, HardAndVideoPresetsAreScenesToo) {
   recipe.width_px = 120;
   recipe.height_px = 80;
   recipe.num_views = 2;
+  recipe.surface_texel = 1;
   recipe.photo.ntsc = true;
   WriteSyntheticScene(recipe, folder / "hard");
   const Scene scene = ReadScene(folder / "hard");
@@ -122,6 +112,7 @@ TEST_P(EachPreset, IsAValidSceneWithAllItsTruth) {
   recipe.width_px = 96;
   recipe.height_px = 64;
   recipe.num_views = 3;
+  recipe.surface_texel = 1;
   const SynthSummary summary = WriteSyntheticScene(recipe, folder / "scene");
   const SceneCheck check = CheckScene(folder / "scene");
   EXPECT_THAT(check.faults, testing::IsEmpty());
@@ -131,9 +122,7 @@ TEST_P(EachPreset, IsAValidSceneWithAllItsTruth) {
   const Truth truth = ReadTruth(folder / "scene" / "truth");
   EXPECT_EQ(truth.cameras.size(), 3u);
   EXPECT_FALSE(truth.novel_views.empty());
-  for (const TexelSample& sample : ReadTexels(truth.texels_file)) {
-    ASSERT_LT(sample.face, summary.num_faces);
-  }
+  EXPECT_EQ(static_cast<int>(ReadCharts(truth.surfaces_folder).size()), summary.num_faces);
   for (const fs::path& masks : {truth.masks_model_folder, truth.masks_occ_folder}) {
     const Image16 labels = ReadLabels(masks / "s1.png");
     EXPECT_EQ(labels.width, truth.cameras.front().camera.width_px);
