@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "datasets-synthetic/evaluate.h"
 
+#include "datasets-synthetic/oracle.h"
 #include "datasets-synthetic/texel_map.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
@@ -133,7 +134,32 @@ void EvaluateTextures(const fs::path& found,
                                       ComparePictures(true_srgb8,
                                                       options.render(model, camera),
                                                       ReadLabels(view.faces_file),
-                                                      CoveredPixels(model, camera))});
+                                                      CoveredPixels(model, camera)),
+                                      std::nullopt});
+  }
+}
+
+// The upper reference beside each novel view.
+void EvaluateOracle(const Truth& truth, const PolygonModel& model, Evaluation& evaluation) {
+  if (evaluation.novel_views.empty()) return;
+  try {
+    std::vector<Image8> true_srgb8;
+    std::vector<Camera> cameras;
+    for (const NovelView& view : truth.novel_views) {
+      true_srgb8.push_back(ReadSrgb8(view.image_file));
+      cameras.push_back(CameraFromTag(view.tag, true_srgb8.back().width, true_srgb8.back().height));
+    }
+    const std::vector<OraclePicture> pictures =
+        RenderOracle(model, FindOraclePhotographs(truth), cameras);
+    for (size_t i = 0; i < pictures.size(); ++i) {
+      evaluation.novel_views[i].oracle =
+          ComparePictures(true_srgb8[i],
+                          pictures[i].srgb8,
+                          ReadLabels(truth.novel_views[i].faces_file),
+                          pictures[i].covered);
+    }
+  } catch (const Error& error) {
+    evaluation.why_no_oracle = error.what();
   }
 }
 
@@ -177,6 +203,7 @@ Evaluation Evaluate(const fs::path& found,
   EvaluateCameras(found, truth, model, evaluation);
   EvaluateMasks(found, truth, model, evaluation);
   EvaluateTextures(found, truth, options, evaluation);
+  EvaluateOracle(truth, model, evaluation);
   return evaluation;
 }
 

@@ -41,6 +41,7 @@ struct ErrorSummary {
 struct NovelViewEvaluation {
   std::string name;
   PictureErrors errors;
+  std::optional<PictureErrors> oracle;  // of the best that the photographs allow (oracle.h)
 };
 
 struct Evaluation {
@@ -54,6 +55,7 @@ struct Evaluation {
   // Automatic masks against the true ones over all photographs; empty if there are none.
   std::vector<MaskOverlap> faces;
   std::vector<NovelViewEvaluation> novel_views;
+  std::string why_no_oracle;  // if novel views were judged without one
   std::optional<TexelErrors> texels;
 };
 

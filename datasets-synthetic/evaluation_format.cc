@@ -63,6 +63,14 @@ nlohmann::ordered_json JsonFromSummary(const ErrorSummary& summary) {
           {"max_px", summary.max_px}};
 }
 
+nlohmann::ordered_json JsonFromPicture(const PictureErrors& errors) {
+  return {{"psnr_db", errors.psnr_db},
+          {"ssim", errors.ssim},
+          {"coverage", errors.coverage},
+          {"num_pixels", errors.num_pixels},
+          {"gain", errors.gain}};
+}
+
 nlohmann::ordered_json JsonFromParameters(const CameraParameters& parameters) {
   nlohmann::ordered_json json;
   for (int i = 0; i < kNumCameraParameters; ++i) {
@@ -143,12 +151,20 @@ std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonMod
     }
   }
   for (const NovelViewEvaluation& view : evaluation.novel_views) {
-    text += Printed("novel view %s: PSNR %.2f dB, SSIM %.4f, coverage %.1f %%\n",
+    text += Printed("novel view %s: PSNR %.2f dB, SSIM %.4f, coverage %.1f %%",
                     view.name.c_str(),
                     view.errors.psnr_db,
                     view.errors.ssim,
                     100 * view.errors.coverage);
+    if (view.oracle) {
+      text += Printed("; oracle %.2f dB, %.4f, %.1f %%",
+                      view.oracle->psnr_db,
+                      view.oracle->ssim,
+                      100 * view.oracle->coverage);
+    }
+    text += "\n";
   }
+  if (!evaluation.why_no_oracle.empty()) text += "no oracle: " + evaluation.why_no_oracle + "\n";
   if (evaluation.texels) {
     text += Printed("texels: RMS %.2f levels of 255 over %ld covered of %ld exact ones\n",
                     evaluation.texels->rms_levels,
@@ -210,13 +226,12 @@ std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonMode
   }
   json["novel_views"] = nlohmann::ordered_json::array();
   for (const NovelViewEvaluation& view : evaluation.novel_views) {
-    json["novel_views"].push_back({{"name", view.name},
-                                   {"psnr_db", view.errors.psnr_db},
-                                   {"ssim", view.errors.ssim},
-                                   {"coverage", view.errors.coverage},
-                                   {"num_pixels", view.errors.num_pixels},
-                                   {"gain", view.errors.gain}});
+    nlohmann::ordered_json entry = {{"name", view.name}};
+    entry.update(JsonFromPicture(view.errors));
+    if (view.oracle) entry["oracle"] = JsonFromPicture(*view.oracle);
+    json["novel_views"].push_back(entry);
   }
+  if (!evaluation.why_no_oracle.empty()) json["why_no_oracle"] = evaluation.why_no_oracle;
   if (evaluation.texels) {
     json["texels"] = {{"rms_levels", evaluation.texels->rms_levels},
                       {"num_texels", evaluation.texels->num_texels},
