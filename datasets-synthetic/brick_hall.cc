@@ -19,11 +19,36 @@ constexpr double kBase = 4;     // top of the stone base
 constexpr double kEaves = 26;   // top of the walls
 constexpr double kCourse = 15;  // the string course between the storeys
 
-// A long wall: stone base, brick with windows in two rows, string course.
+// Stones at the corners of a brick face, none of them in the model.
+void AddQuoins(Surface& surface, double high, bool at_left, bool at_right) {
+  if (at_left) {
+    surface.decals.push_back(MakeDecal(MakeQuoins(surface.low_v, high, true, kSandstone),
+                                       surface.low_u,
+                                       surface.low_v,
+                                       surface.low_u + 2,
+                                       high));
+  }
+  if (at_right) {
+    surface.decals.push_back(MakeDecal(MakeQuoins(surface.low_v, high, false, kSandstone),
+                                       surface.high_u - 2,
+                                       surface.low_v,
+                                       surface.high_u,
+                                       high));
+  }
+}
+
+// Which ends of a wall are corners of the building that stand out.
+struct Corners {
+  bool at_from = false;
+  bool at_to = false;
+};
+
+// A long wall: stone base, brick with a row of windows, string course, quoins.
 void AddLongWall(WorldBuilder& builder,
                  const Eigen::Vector2d& from,
                  const Eigen::Vector2d& to,
                  int num_windows,
+                 const Corners& corners,
                  const std::string& name) {
   const double length = (to - from).norm();
   const Eigen::Vector2d along = (to - from) / length;
@@ -36,11 +61,18 @@ void AddLongWall(WorldBuilder& builder,
                          const std::string& part) {
     const Eigen::Vector2d a = from + start * along;
     const Eigen::Vector2d b = from + end * along;
-    return builder.AddPolygon(
+    const int face = builder.AddPolygon(
         {{a.x(), a.y(), low}, {b.x(), b.y(), low}, {b.x(), b.y(), high}, {a.x(), a.y(), high}},
         material,
         color,
         name + " " + part);
+    if (material == Material::kBrick) {
+      AddQuoins(builder.SurfaceOf(face),
+                high,
+                corners.at_from && start == 0,
+                corners.at_to && end == length);
+    }
+    return face;
   };
   piece(0, length, 0, kBase, Material::kStone, kSandstone, "base");
   if (num_windows == 0) {
@@ -66,7 +98,8 @@ void AddLongWall(WorldBuilder& builder,
   piece(0, length, kCourse + 1.5, kEaves, Material::kBrick, kBrickRed, "upper storey");
 }
 
-// A wall that ends in a gable: stone base and a five-cornered brick face.
+// A wall that ends in a gable: stone base and a five-cornered brick face with quoins, a coping and
+// a round window.
 void AddGable(WorldBuilder& builder,
               const Eigen::Vector2d& from,
               const Eigen::Vector2d& to,
@@ -74,14 +107,27 @@ void AddGable(WorldBuilder& builder,
               const std::string& name) {
   builder.AddWall(from, to, {{0, kBase, Material::kStone, kSandstone, "base"}}, name);
   const Eigen::Vector2d middle = (from + to) / 2;
-  builder.AddPolygon({{from.x(), from.y(), kBase},
-                      {to.x(), to.y(), kBase},
-                      {to.x(), to.y(), kEaves},
-                      {middle.x(), middle.y(), ridge},
-                      {from.x(), from.y(), kEaves}},
-                     Material::kBrick,
-                     kBrickRed,
-                     name + " gable");
+  const int face = builder.AddPolygon({{from.x(), from.y(), kBase},
+                                       {to.x(), to.y(), kBase},
+                                       {to.x(), to.y(), kEaves},
+                                       {middle.x(), middle.y(), ridge},
+                                       {from.x(), from.y(), kEaves}},
+                                      Material::kBrick,
+                                      kBrickRed,
+                                      name + " gable");
+  Surface& surface = builder.SurfaceOf(face);
+  AddQuoins(surface, kEaves, true, true);
+  const double width = surface.high_u - surface.low_u;
+  surface.decals.push_back(MakeDecal(
+      MakeCoping(width, ridge - kEaves, kSandstone), surface.low_u, kEaves, surface.high_u, ridge));
+  const double center = (surface.low_u + surface.high_u) / 2;
+  constexpr double kRadius = 2.6;
+  const double height = kEaves + 0.42 * (ridge - kEaves);
+  surface.decals.push_back(MakeDecal(MakeOculus(kSandstone),
+                                     center - kRadius,
+                                     height - kRadius,
+                                     center + kRadius,
+                                     height + kRadius));
 }
 
 // One slope of a roof: eaves from a to b (outside on the right), ridge from b's end to a's.
@@ -131,14 +177,14 @@ Subject MakeBrickHall(uint64_t seed) {
   // the south. Both ridges are as high, so the roofs meet in two valleys.
   constexpr double kRidge = 42;
   constexpr double kWingRidge = kEaves + 16.0 * 18 / 20;
-  AddLongWall(builder, {0, 0}, {36, 0}, 3, "south wall west part");
-  AddLongWall(builder, {72, 0}, {90, 0}, 2, "south wall east part");
-  AddLongWall(builder, {90, 40}, {0, 40}, 7, "north wall");
+  AddLongWall(builder, {0, 0}, {36, 0}, 3, {true, false}, "south wall west part");
+  AddLongWall(builder, {72, 0}, {90, 0}, 2, {false, true}, "south wall east part");
+  AddLongWall(builder, {90, 40}, {0, 40}, 7, {true, true}, "north wall");
   AddGable(builder, {90, 0}, {90, 40}, kRidge, "east end");
   AddGable(builder, {0, 40}, {0, 0}, kRidge, "west end");
-  AddLongWall(builder, {36, 0}, {36, -22}, 0, "wing west wall");
+  AddLongWall(builder, {36, 0}, {36, -22}, 0, {false, true}, "wing west wall");
   AddGable(builder, {36, -22}, {72, -22}, kWingRidge, "wing front");
-  AddLongWall(builder, {72, -22}, {72, 0}, 0, "wing east wall");
+  AddLongWall(builder, {72, -22}, {72, 0}, 0, {true, false}, "wing east wall");
   AddSlope(builder, {90, 40}, {0, 40}, {0, 20}, {90, 20}, kRidge, "north roof");
   // The wing's ridge runs into the south slope where that is as high: 18 ft in.
   const Eigen::Vector3d meeting(54, 18, kWingRidge);

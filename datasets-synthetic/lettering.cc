@@ -6,6 +6,9 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace groundglass {
 namespace {
 
@@ -75,7 +78,7 @@ ImageF MakePoster(int number) {
     }
   }
   const cv::Scalar ink = Opaque(Rgb(0.02f, 0.02f, 0.03f));
-  cv::putText(view, "PHOTOGRAPHS", {12, 46}, cv::FONT_HERSHEY_DUPLEX, 1.1, ink, 3);
+  cv::putText(view, "PHOTOGRAPHS", {18, 46}, cv::FONT_HERSHEY_DUPLEX, 0.95, ink, 2);
   cv::putText(view, "1888 - 1988", {40, 330}, cv::FONT_HERSHEY_DUPLEX, 0.9, ink, 2);
   cv::putText(view, "open daily 10 to 5", {38, 362}, cv::FONT_HERSHEY_SIMPLEX, 0.6, ink, 1);
   cv::rectangle(view, cv::Rect(0, 0, kWidth, kHeight), Opaque(Rgb(0.6f, 0.6f, 0.58f)), 6);
@@ -97,6 +100,80 @@ ImageF MakeBars() {
     const int height = 16 + static_cast<int>(UniformOf(SeedFor(0, "bars", i)) * 50);
     cv::rectangle(view, cv::Rect(0, top, kWidth, height - 8), Opaque(colors[i % 5]), cv::FILLED);
     top += height;
+  }
+  return image;
+}
+
+ImageF MakeQuoins(double low, double high, bool is_left, const Rgb& stone) {
+  constexpr double kPixelsPerFoot = 24;
+  constexpr double kCourse = 1.333;  // six courses of brick
+  constexpr double kJoint = 0.05;
+  const int width = static_cast<int>(2 * kPixelsPerFoot);
+  const int height = std::max(1, static_cast<int>(std::lround((high - low) * kPixelsPerFoot)));
+  ImageF image(width, height, 4);
+  for (int y = 0; y < height; ++y) {
+    const double v = high - (y + 0.5) * (high - low) / height;
+    const double course = std::floor(v / kCourse);
+    const double above_joint = v - course * kCourse;
+    const double reach = std::fmod(std::abs(course), 2.0) < 0.5 ? 2.0 : 1.2;
+    const auto shade = static_cast<float>(
+        0.9 + 0.2 * UniformOf(SeedFor(is_left ? 1 : 2, "quoin", static_cast<uint64_t>(course))));
+    for (int x = 0; x < width; ++x) {
+      const double from_corner = ((is_left ? x : width - 1 - x) + 0.5) / kPixelsPerFoot;
+      if (from_corner > reach) continue;
+      const bool is_joint = above_joint < kJoint || from_corner > reach - kJoint;
+      for (int c = 0; c < 3; ++c) image.At(x, y)[c] = stone[c] * (is_joint ? 0.45f : shade);
+      image.At(x, y)[3] = kOpaque;
+    }
+  }
+  return image;
+}
+
+ImageF MakeOculus(const Rgb& stone) {
+  constexpr int kSize = 160;
+  ImageF image(kSize, kSize, 4);
+  cv::Mat view = View(image);
+  const cv::Point middle(kSize / 2, kSize / 2);
+  cv::circle(view, middle, 78, Opaque(stone), cv::FILLED);
+  constexpr int kStones = 12;
+  for (int i = 0; i < kStones; ++i) {
+    const double angle = 2 * CV_PI * i / kStones;
+    cv::line(view,
+             middle,
+             {middle.x + static_cast<int>(78 * std::cos(angle)),
+              middle.y + static_cast<int>(78 * std::sin(angle))},
+             Opaque(0.45f * stone),
+             1);
+  }
+  cv::circle(view, middle, 58, Opaque(Rgb(0.02f, 0.02f, 0.022f)), cv::FILLED);
+  for (int y = -48; y <= 48; y += 12) {
+    const int half = static_cast<int>(std::sqrt(56.0 * 56.0 - y * y));
+    cv::line(view,
+             {middle.x - half, middle.y + y},
+             {middle.x + half, middle.y + y},
+             Opaque(Rgb(0.2f, 0.21f, 0.2f)),
+             5);
+  }
+  return image;
+}
+
+ImageF MakeCoping(double width, double height, const Rgb& stone) {
+  constexpr double kPixelsPerFoot = 20;
+  constexpr double kDepth = 1.1;  // feet, upright
+  const int columns = static_cast<int>(std::lround(width * kPixelsPerFoot));
+  const int rows = static_cast<int>(std::lround(height * kPixelsPerFoot));
+  ImageF image(columns, rows, 4);
+  for (int y = 0; y < rows; ++y) {
+    const double above = height - (y + 0.5) / kPixelsPerFoot;
+    for (int x = 0; x < columns; ++x) {
+      const double from_side = std::min(x + 0.5, columns - x - 0.5) / kPixelsPerFoot;
+      const double slope = from_side * height / (width / 2);
+      if (above < slope - kDepth) continue;
+      const double along = std::fmod(from_side, 3.0);
+      const bool is_joint = along < 0.06 || above < slope - kDepth + 0.08;
+      for (int c = 0; c < 3; ++c) image.At(x, y)[c] = stone[c] * (is_joint ? 0.45f : 1.0f);
+      image.At(x, y)[3] = kOpaque;
+    }
   }
   return image;
 }

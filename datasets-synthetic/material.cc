@@ -170,7 +170,7 @@ Appearance PavingAppearance(const Surface& surface, const Place& at) {
 
 Appearance GrassAppearance(const Surface& surface, const Place& at) {
   const double patches = Noise(surface, 1, at, 0.02, 4);
-  const double blades = Noise(surface, 2, at, 1.1, 4);
+  const double blades = Noise(surface, 2, at, 1.1, 6);
   Rgb albedo = Mix(surface.color, Rgb(0.15f, 0.15f, 0.055f), 0.35 + 0.6 * patches);
   return {albedo * static_cast<float>(1 + 0.4 * blades), 0};
 }
@@ -286,6 +286,10 @@ Appearance BareAppearance(const Surface& surface, const Place& at) {
       return GrainyAppearance(surface, at, 3, 0.5);
     case Material::kBark:
       return GrainyAppearance(surface, at, 4, 0.5);
+    case Material::kPaint:
+      return {surface.color, 0.6f};
+    case Material::kGlass:
+      return {surface.color, 1};
     case Material::kEven:
       return {surface.color, 0};
     case Material::kPanel:

@@ -31,6 +31,8 @@ enum class Material {
   kPlain,   // paint or metal
   kFoliage,
   kBark,
+  kPaint,  // of a car: it mirrors a little
+  kGlass,  // dark, and mirrors
   kEven,   // one colour
   kPanel,  // one even colour, with soft blotches that fade out before the border of a rectangle
 };

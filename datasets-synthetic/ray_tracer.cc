@@ -204,8 +204,12 @@ class Tracer {
     Eigen::Vector3d normal = planes_[face].normal_in_world;
     if (normal.dot(direction) > 0) normal = -normal;
     const Daylight& light = scene_.light;
-    const auto sky_share =
+    auto sky_share =
         static_cast<float>(scene_.sky_map.SkyShare(surface, face, texture.x(), texture.y()));
+    const bool is_ground = normal.z() > 0.99 && point.z() < 0.5 && surface.mask_code == 0;
+    if (is_ground) {
+      sky_share *= static_cast<float>(scene_.world.SkyLeftAt(point.head<2>()));
+    }
     Rgb irradiance = IndirectIrradiance(light, sky_share);
     if (in_sun)
       irradiance += static_cast<float>(std::max(0.0, normal.dot(light.to_sun))) * light.sun;

@@ -18,6 +18,19 @@ constexpr double kSamePoint = 1e-4;
 
 }  // namespace
 
+double SyntheticWorld::SkyLeftAt(const Eigen::Vector2d& ground) const {
+  double left = 1;
+  for (const ContactShadow& shadow : contact_shadows) {
+    const Eigen::Vector2d offset = ground - shadow.center;
+    const Eigen::Vector2d across(-shadow.along.y(), shadow.along.x());
+    const Eigen::Vector2d beyond(std::abs(offset.dot(shadow.along)) - shadow.half_length,
+                                 std::abs(offset.dot(across)) - shadow.half_width);
+    const double t = std::min(1.0, beyond.cwiseMax(0).norm() / shadow.reach);
+    left *= 1 - shadow.strength * (1 - t * t * (3 - 2 * t));
+  }
+  return left;
+}
+
 PolygonModel SyntheticWorld::Model() const {
   PolygonModel model;
   model.unit = geometry.unit;

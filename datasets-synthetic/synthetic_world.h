@@ -28,6 +28,20 @@ struct SyntheticWorld {
   };
   std::vector<RoundCorner> round_corners;
 
+  // What stands on the ground keeps the sky from it: about a rectangle by `strength` (share of the
+  // sky), fading out over `reach`. Feet.
+  struct ContactShadow {
+    Eigen::Vector2d center = Eigen::Vector2d::Zero();
+    Eigen::Vector2d along = Eigen::Vector2d::UnitX();
+    double half_length = 0;
+    double half_width = 0;
+    double reach = 1;
+    double strength = 0;
+  };
+  std::vector<ContactShadow> contact_shadows;
+  // The share of the sky that they leave to a place on the ground.
+  double SkyLeftAt(const Eigen::Vector2d& ground_in_world) const;
+
   // The model that people get: the first faces and the points that they use. Ask for it before
   // relief moves the geometry away from it.
   PolygonModel Model() const;
@@ -82,6 +96,10 @@ class WorldBuilder {
                         const Rgb& color,
                         const std::string& name,
                         int mask_code);
+
+  void AddContactShadow(const SyntheticWorld::ContactShadow& shadow) {
+    world_.contact_shadows.push_back(shadow);
+  }
 
   // Shifts a face's texture along u, so that a wall's grid meets its neighbour's.
   void ShiftTexture(int face, double shift_u);

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "datasets-synthetic/buildings.h"
 
+#include "datasets-synthetic/occluder_shapes.h"
 #include "datasets-synthetic/occluders.h"
 #include "scene/frames.h"
 #include "scene/model_io.h"
@@ -112,6 +113,30 @@ TEST(Occluders, StandClearOfWallsAndOfPhotographers) {
     }
   }
   EXPECT_THAT(codes, testing::IsSupersetOf({kTree, kLamp, kSign, kPerson}));
+}
+
+// Light depends on which side of a face is its front.
+TEST(Occluders, SkinsFaceOutwards) {
+  SyntheticWorld world;
+  WorldBuilder builder(world, 1);
+  const Eigen::Vector3d center(3, 4, 5);
+  AddEgg(builder, center, {2, 0, 0}, {0, 1, 0}, {0, 0, 3}, 12, {});
+  ASSERT_EQ(world.geometry.faces.size(), 12u * (2 * 6 - 2));
+  for (int face = 0; face < static_cast<int>(world.geometry.faces.size()); ++face) {
+    const Eigen::Vector3d corner =
+        world.geometry.points_in_world[world.geometry.faces[face].points[0]];
+    EXPECT_GT(ComputeFacePlane(world.geometry, face).normal_in_world.dot(corner - center), 0);
+  }
+}
+
+TEST(ContactShadow, KeepsTheSkyFromTheGroundUnderneathAndFadesOut) {
+  SyntheticWorld world;
+  WorldBuilder(world, 1).AddContactShadow(
+      {.center = {10, 20}, .half_length = 7, .half_width = 2, .reach = 3, .strength = 0.8});
+  EXPECT_NEAR(world.SkyLeftAt({15, 21}), 0.2, 1e-12);
+  EXPECT_NEAR(world.SkyLeftAt({10, 23.5}), 0.6, 1e-12);  // halfway out
+  EXPECT_EQ(world.SkyLeftAt({10, 25.5}), 1);
+  EXPECT_EQ(world.SkyLeftAt({20.5, 20}), 1);
 }
 
 }  // namespace
