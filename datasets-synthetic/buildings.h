@@ -48,6 +48,10 @@ std::vector<PlannedView> MakeRingOfViews(const Box& bounds_in_world,
                                          const std::string& prefix,
                                          int first_number);
 
+// Height of the lawn about the plaza, feet.
+constexpr double kLawnHeight = -0.6;
+constexpr const char* kPlazaName = "plaza";
+
 // The ground, roads and distant blocks around a building that stands within `radius` feet of
 // `center_in_world`; called after the building's own faces.
 void AddSurroundings(WorldBuilder& builder,

@@ -20,8 +20,8 @@ constexpr double kRoof = 4.7;
 // A saloon of the eighties, drawn in feet: along the car, to its right, and up.
 class Car {
  public:
-  Car(WorldBuilder& builder, const Eigen::Vector2d& place, uint64_t seed)
-      : builder_(builder), origin_(place.x(), place.y(), 0) {
+  Car(WorldBuilder& builder, const Eigen::Vector3d& foot, uint64_t seed)
+      : builder_(builder), origin_(foot) {
     Draws draws(seed);
     const double heading = draws.Angle();
     along_ = {std::cos(heading), std::sin(heading), 0};
@@ -297,8 +297,8 @@ class Car {
 
 }  // namespace
 
-void AddCar(WorldBuilder& builder, const Eigen::Vector2d& place, uint64_t seed) {
-  Car(builder, place, seed).Add();
+void AddCar(WorldBuilder& builder, const Eigen::Vector3d& foot, uint64_t seed) {
+  Car(builder, foot, seed).Add();
 }
 
 }  // namespace groundglass

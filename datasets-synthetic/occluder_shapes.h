@@ -61,8 +61,8 @@ void AddEgg(WorldBuilder& builder,
             int num_sides,
             const Finish& finish);
 
-// Things that stand on the ground at a place of it, in `world`, feet. Whatever is not said is drawn
-// from the seed.
+// Things that stand at a place of the plaza, or on their feet wherever the ground is, in `world`,
+// feet. Whatever is not said is drawn from the seed.
 void AddTree(WorldBuilder& builder, const Eigen::Vector2d& place, uint64_t seed);
 void AddLamp(WorldBuilder& builder, const Eigen::Vector2d& place);
 // A board that faces `toward`; each number has its own words.
@@ -70,7 +70,7 @@ void AddSign(WorldBuilder& builder,
              const Eigen::Vector2d& place,
              const Eigen::Vector2d& toward,
              int number);
-void AddCar(WorldBuilder& builder, const Eigen::Vector2d& place, uint64_t seed);
-void AddPerson(WorldBuilder& builder, const Eigen::Vector2d& place, uint64_t seed);
+void AddCar(WorldBuilder& builder, const Eigen::Vector3d& foot, uint64_t seed);
+void AddPerson(WorldBuilder& builder, const Eigen::Vector3d& foot, uint64_t seed);
 
 }  // namespace groundglass

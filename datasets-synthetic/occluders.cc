@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "datasets-synthetic/occluders.h"
 
+#include "datasets-synthetic/buildings.h"
 #include "datasets-synthetic/occluder_shapes.h"
 
 #include <cmath>
@@ -16,6 +17,12 @@ bool IsFree(const OccluderSite& site, const Eigen::Vector2d& place, double clear
     if ((place - camera.head<2>()).norm() < 22) return false;
   }
   return true;
+}
+
+Eigen::Vector3d OnGround(const OccluderSite& site, const Eigen::Vector2d& place) {
+  const bool is_on_plaza = (place.array() > site.plaza_low.array()).all() &&
+                           (place.array() < site.plaza_high.array()).all();
+  return {place.x(), place.y(), is_on_plaza ? 0 : kLawnHeight};
 }
 
 // A free place around the building, between `low` and `high` of the plaza's radius from its centre.
@@ -81,11 +88,11 @@ void AddPassingOccluders(WorldBuilder& builder,
   const int num_people = draws.Count(counts.people);
   for (int i = 0; i < num_cars; ++i) {
     const auto [place, is_free] = place_before_camera(50, 150);
-    if (is_free) AddCar(builder, place, SeedFor(seed, "car", i));
+    if (is_free) AddCar(builder, OnGround(site, place), SeedFor(seed, "car", i));
   }
   for (int i = 0; i < num_people; ++i) {
     const auto [place, is_free] = place_before_camera(45, 160);
-    if (is_free) AddPerson(builder, place, SeedFor(seed, "person", i));
+    if (is_free) AddPerson(builder, OnGround(site, place), SeedFor(seed, "person", i));
   }
 }
 

@@ -37,6 +37,9 @@ struct OccluderCounts {
 struct OccluderSite {
   Eigen::Vector2d low, high;  // the building's extent on the ground
   double radius = 150;        // of the plaza about its centre
+  // The paved square, at height 0; beyond it the lawn lies lower (kLawnHeight).
+  Eigen::Vector2d plaza_low = Eigen::Vector2d::Constant(-150);
+  Eigen::Vector2d plaza_high = Eigen::Vector2d::Constant(150);
   std::vector<Eigen::Vector3d> camera_positions;
 };
 

@@ -3,6 +3,8 @@
 #include "datasets-synthetic/occluder_shapes.h"
 #include "datasets-synthetic/occluders.h"
 
+#include <algorithm>
+
 namespace groundglass {
 namespace {
 
@@ -11,8 +13,8 @@ constexpr int kSides = 12;
 // Someone in mid-step, built in feet for a height of 6 and then scaled.
 class Figure {
  public:
-  Figure(WorldBuilder& builder, const Eigen::Vector2d& place, uint64_t seed)
-      : builder_(builder), place_(place.x(), place.y(), 0), draws_(seed) {
+  Figure(WorldBuilder& builder, const Eigen::Vector3d& foot, uint64_t seed)
+      : builder_(builder), foot_(foot), draws_(seed) {
     const double heading = draws_.Angle();
     ahead_ = {std::cos(heading), std::sin(heading), 0};
     aside_ = {-ahead_.y(), ahead_.x(), 0};
@@ -21,7 +23,7 @@ class Figure {
   }
 
   void Add() {
-    builder_.AddContactShadow({.center = place_.head<2>(),
+    builder_.AddContactShadow({.center = foot_.head<2>(),
                                .half_length = 0.3,
                                .half_width = 0.3,
                                .reach = 1.3,
@@ -36,11 +38,13 @@ class Figure {
     const bool has_long_coat = draws_.Chance(0.3);
     const bool has_skirt = !has_long_coat && draws_.Chance(0.25);
     const double stride = draws_.Chance(0.7) ? draws_.Uniform(0.35, 0.8) : draws_.Uniform(0, 0.1);
+    // A skirt or a long coat does not let the knees far apart.
+    const double knee_stride = has_skirt || has_long_coat ? std::min(stride, 0.3) : stride;
 
     for (const double side : {-1.0, 1.0}) {
       const double step = side * stride;
       const Eigen::Vector3d hip = At(0, 0.27 * side, 3.05);
-      const Eigen::Vector3d knee = At(0.55 * step + 0.12, 0.26 * side, 1.65);
+      const Eigen::Vector3d knee = At(0.55 * side * knee_stride + 0.12, 0.26 * side, 1.65);
       const Eigen::Vector3d ankle = At(1.1 * step - 0.06, 0.24 * side, step < 0 ? 0.42 : 0.28);
       Limb(hip, knee, 0.36, 0.25, has_skirt ? skin : below);
       Limb(knee, ankle, 0.25, 0.16, has_skirt ? skin : below);
@@ -65,8 +69,8 @@ class Figure {
            {4.92, 0.24, 0.42},
            {5.05, 0.16, 0.2}},
           coat);
-    if (has_long_coat) Trunk({{1.75, 0.55, 0.62}, {2.4, 0.5, 0.58}, {3.2, 0.42, 0.54}}, coat);
-    if (has_skirt) Trunk({{1.7, 0.55, 0.6}, {2.5, 0.48, 0.58}, {3.2, 0.42, 0.54}}, below);
+    if (has_long_coat) Trunk({{1.65, 0.62, 0.64}, {2.4, 0.52, 0.59}, {3.2, 0.42, 0.54}}, coat);
+    if (has_skirt) Trunk({{1.7, 0.62, 0.62}, {2.5, 0.5, 0.58}, {3.2, 0.42, 0.54}}, below);
     Limb(At(0, 0, 4.95), At(0.06, 0, 5.3), 0.18, 0.16, skin);
     Egg(At(0.08, 0, 5.55), 0.33, 0.27, 0.42, skin);
     Egg(At(0.02, 0, 5.66), 0.35, 0.3, 0.35, hair);
@@ -79,7 +83,7 @@ class Figure {
   };
 
   Eigen::Vector3d At(double forward, double side, double up) const {
-    return place_ + size_ * (forward * ahead_ + side * aside_ + up * Eigen::Vector3d::UnitZ());
+    return foot_ + size_ * (forward * ahead_ + side * aside_ + up * Eigen::Vector3d::UnitZ());
   }
   Finish Of(const Rgb& color) const { return {Material::kPlain, color, "person", kPerson}; }
 
@@ -141,7 +145,7 @@ class Figure {
   }
 
   WorldBuilder& builder_;
-  Eigen::Vector3d place_;
+  Eigen::Vector3d foot_;
   Draws draws_;
   Eigen::Vector3d ahead_, aside_;
   double size_ = 1;
@@ -150,8 +154,8 @@ class Figure {
 
 }  // namespace
 
-void AddPerson(WorldBuilder& builder, const Eigen::Vector2d& place, uint64_t seed) {
-  Figure(builder, place, seed).Add();
+void AddPerson(WorldBuilder& builder, const Eigen::Vector3d& foot, uint64_t seed) {
+  Figure(builder, foot, seed).Add();
 }
 
 }  // namespace groundglass

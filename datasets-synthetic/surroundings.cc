@@ -34,15 +34,20 @@ void AddSurroundings(WorldBuilder& builder,
   const Eigen::Vector2d plaza(radius, radius);
   const Eigen::Vector2d far(4000, 4000);
   // Layers lie a little above one another, so that a ray meets the upper one.
-  AddGround(
-      builder, center - far, center + far, -0.6, Material::kGrass, {0.09f, 0.13f, 0.04f}, "lawn");
+  AddGround(builder,
+            center - far,
+            center + far,
+            kLawnHeight,
+            Material::kGrass,
+            {0.09f, 0.13f, 0.04f},
+            "lawn");
   AddGround(builder,
             center - plaza,
             center + plaza,
             0,
             Material::kPaving,
             {0.36f, 0.34f, 0.31f},
-            "plaza");
+            kPlazaName);
   // The plaza's kerb.
   for (int side = 0; side < 4; ++side) {
     const Eigen::Vector2d corners[4] = {center + Eigen::Vector2d(-radius, -radius),
@@ -51,7 +56,7 @@ void AddSurroundings(WorldBuilder& builder,
                                         center + Eigen::Vector2d(-radius, radius)};
     builder.AddWall(corners[side],
                     corners[(side + 1) % 4],
-                    {{-0.6, 0, Material::kConcrete, Rgb(0.4f, 0.4f, 0.38f), ""}},
+                    {{kLawnHeight, 0, Material::kConcrete, Rgb(0.4f, 0.4f, 0.38f), ""}},
                     "kerb");
   }
   const double street = radius + 40;

@@ -139,13 +139,19 @@ void WriteNovelView(const SynthRecipe& recipe,
   WriteLabels(folder / (view.name + "_faces.png"), model_visibility.FaceLabels(camera));
 }
 
-OccluderSite SiteOf(const PolygonModel& model, const std::vector<PhotographPlan>& plans) {
-  const Box bounds = ComputeBounds(model);
+OccluderSite SiteOf(const PlannedScene& planned) {
+  const Box bounds = ComputeBounds(planned.model);
   OccluderSite site;
+  for (size_t face = 0; face < planned.world.surfaces.size(); ++face) {
+    if (planned.world.geometry.faces[face].name != kPlazaName) continue;
+    const Surface& plaza = planned.world.surfaces[face];
+    site.plaza_low = {plaza.low_u, plaza.low_v};
+    site.plaza_high = {plaza.high_u, plaza.high_v};
+  }
   site.low = bounds.min.head<2>();
   site.high = bounds.max.head<2>();
   site.radius = (site.high - site.low).maxCoeff() / 2 + 75;
-  for (const PhotographPlan& plan : plans) {
+  for (const PhotographPlan& plan : planned.photographs) {
     site.camera_positions.push_back(plan.camera.PositionInWorld());
   }
   return site;
@@ -204,7 +210,7 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
                 sky_map,
                 overcast,
                 {.texel = recipe.surface_texel});
-  const OccluderSite site = SiteOf(model, plans);
+  const OccluderSite site = SiteOf(planned);
   SyntheticWorld furnished = planned.world;
   WorldBuilder furnisher(furnished, SeedFor(recipe.seed, "occluders"));
   AddStandingOccluders(furnisher, site, recipe.occluders, recipe.seed);
@@ -251,8 +257,7 @@ Image8 RenderPresetPicture(const SynthRecipe& recipe) {
   const SkyMap sky_map(planned.world, visibility, bounds.Center(), 1.5 * bounds.Diagonal());
   SyntheticWorld world = planned.world;
   WorldBuilder builder(world, SeedFor(recipe.seed, "occluders"));
-  AddStandingOccluders(
-      builder, SiteOf(planned.model, planned.photographs), recipe.occluders, recipe.seed);
+  AddStandingOccluders(builder, SiteOf(planned), recipe.occluders, recipe.seed);
   const Visibility furnished(world.geometry);
   ImageF picture =
       DevelopPhotograph(RenderRadiance({world, furnished, sky_map, plan.light}, plan.camera, 1),

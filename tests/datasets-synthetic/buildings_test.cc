@@ -115,6 +115,25 @@ TEST(Occluders, StandClearOfWallsAndOfPhotographers) {
   EXPECT_THAT(codes, testing::IsSupersetOf({kTree, kLamp, kSign, kPerson}));
 }
 
+// The lawn lies lower than the plaza: nobody floats, nobody sinks in.
+TEST(Occluders, WhoPassesStandsOnTheGroundThere) {
+  for (const double plaza : {500.0, 10.0}) {
+    SyntheticWorld world;
+    WorldBuilder builder(world, 1);
+    OccluderSite site;
+    site.low = {-5, -5};
+    site.high = {5, 5};
+    site.plaza_low = {-plaza, -plaza};
+    site.plaza_high = {plaza, plaza};
+    AddPassingOccluders(builder, site, {0, -300, 5}, {0, 1, 0}, {.cars = 3, .people = 5}, 1);
+    double lowest = 100;
+    for (const Eigen::Vector3d& point : world.geometry.points_in_world) {
+      lowest = std::min(lowest, point.z());
+    }
+    EXPECT_NEAR(lowest, plaza < 100 ? kLawnHeight : 0, 0.06) << plaza;
+  }
+}
+
 // Light depends on which side of a face is its front.
 TEST(Occluders, SkinsFaceOutwards) {
   SyntheticWorld world;
