@@ -118,13 +118,11 @@ int RunInvrender(const InvrenderArguments& arguments) {
   }
   PrepareOutputFolder(arguments.out_folder);
   WriteManifest(arguments.out_folder, Describe(arguments, scene, photographs));
-  const BakeResult result = BakeTextures(scene.model,
-                                         photographs,
-                                         arguments.bake.Options(),
-                                         MakeProgress(arguments.common, "texture"));
+  BakeOptions options = arguments.bake.Options();
+  options.on_face_mask = FaceMaskWriter(arguments.out_folder);
+  const BakeResult result =
+      BakeTextures(scene.model, photographs, options, MakeProgress(arguments.common, "texture"));
   WriteBake(result, arguments.out_folder, "." + arguments.bake.format);
-  WriteFaceMasks(
-      scene.model, photographs, arguments.out_folder, MakeProgress(arguments.common, "masks"));
   PrintSummary(result, photographs.size(), arguments.common.json);
   return kExitDone;
 }

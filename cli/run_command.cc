@@ -96,9 +96,10 @@ int Run(const RunArguments& arguments) {
     std::fprintf(stderr,
                  "groundglass: no photograph could be registered, so nothing is textured\n");
   } else if (!std::filesystem::exists(out / "coverage.json")) {
-    WriteFaceMasks(scene.model, photographs, out, MakeProgress(common, "masking"));
-    const BakeResult bake = BakeTextures(
-        scene.model, photographs, arguments.baking.Options(), MakeProgress(common, "texturing"));
+    BakeOptions options = arguments.baking.Options();
+    options.on_face_mask = FaceMaskWriter(out);
+    const BakeResult bake =
+        BakeTextures(scene.model, photographs, options, MakeProgress(common, "texturing"));
     RenderStills(
         out, bake.model, registrations, arguments.num_stills, MakeProgress(common, "rendering"));
     WriteBake(bake, out, "." + arguments.baking.format);

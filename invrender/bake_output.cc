@@ -112,17 +112,11 @@ void WriteBake(const BakeResult& result,
   WriteFileAtomically(out / "coverage.json", FormatCoverage(result.coverage));
 }
 
-void WriteFaceMasks(const PolygonModel& model,
-                    std::span<const BakePhotograph> photographs,
-                    const std::filesystem::path& out,
-                    const Progress& progress) {
-  const Visibility visibility(model);
-  const int total = static_cast<int>(photographs.size());
-  for (int i = 0; i < total; ++i) {
-    const std::string file_name = photographs[i].name + ".png";
-    WriteLabels(out / "faces" / file_name, MakeFaceMask(model, visibility, photographs[i].camera));
-    if (progress) progress(i + 1, total, "wrote faces/" + file_name);
-  }
+std::function<void(const BakePhotograph&, const Image16&)> FaceMaskWriter(
+    const std::filesystem::path& out) {
+  return [out](const BakePhotograph& photograph, const Image16& labels) {
+    WriteLabels(out / "faces" / (photograph.name + ".png"), labels);
+  };
 }
 
 }  // namespace groundglass

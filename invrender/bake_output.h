@@ -8,6 +8,7 @@
 #include "scene/scene_folder.h"
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 namespace groundglass {
@@ -34,10 +35,8 @@ void WriteBake(const BakeResult& result,
                const std::filesystem::path& out,
                const std::string& page_extension = ".jpg");
 
-// Writes the automatic masks, faces/NAME.png.
-void WriteFaceMasks(const PolygonModel& model,
-                    std::span<const BakePhotograph> photographs,
-                    const std::filesystem::path& out,
-                    const Progress& progress = {});
+// For BakeOptions::on_face_mask: writes the automatic masks, faces/NAME.png.
+std::function<void(const BakePhotograph&, const Image16&)> FaceMaskWriter(
+    const std::filesystem::path& out);
 
 }  // namespace groundglass

@@ -19,8 +19,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numeric>
+#include <optional>
 
 namespace groundglass {
 namespace {
@@ -42,18 +44,26 @@ class Steps {
   std::mutex mutex_;
 };
 
+std::vector<std::filesystem::path> ImageFiles(const std::vector<BakePhotograph>& photographs) {
+  std::vector<std::filesystem::path> files;
+  for (const BakePhotograph& photograph : photographs) files.push_back(photograph.image_file);
+  return files;
+}
+
 std::vector<PreparedPhoto> PreparePhotos(const PolygonModel& model,
                                          const std::vector<BakePhotograph>& photographs,
                                          const Visibility& visibility,
                                          const std::vector<int>& chart_of_face,
                                          const BakeOptions& options,
+                                         PhotoCache& cache,
                                          Steps& steps) {
+  std::vector<std::optional<PreparedPhoto>> prepared(photographs.size());
+  tbb::parallel_for(0, static_cast<int>(photographs.size()), [&](int i) {
+    prepared[i].emplace(photographs[i], i, model, visibility, chart_of_face, options, cache);
+    steps.Tell("read " + photographs[i].name);
+  });
   std::vector<PreparedPhoto> photos;
-  photos.reserve(photographs.size());
-  for (const BakePhotograph& photograph : photographs) {
-    photos.emplace_back(photograph, model, visibility, chart_of_face, options);
-    steps.Tell("read " + photograph.name);
-  }
+  for (std::optional<PreparedPhoto>& photo : prepared) photos.push_back(std::move(*photo));
   return photos;
 }
 
@@ -197,8 +207,9 @@ BakeResult BakeTextures(const PolygonModel& model,
   const std::vector<int> chart_of_face = ChartOfFace(charts, model.faces.size());
   const int num_charts = static_cast<int>(charts.size());
   Steps steps(progress, static_cast<int>(sorted.size()) + 2 * num_charts);
+  PhotoCache cache(ImageFiles(sorted), std::numeric_limits<size_t>::max());
   const std::vector<PreparedPhoto> photos =
-      PreparePhotos(model, sorted, visibility, chart_of_face, options, steps);
+      PreparePhotos(model, sorted, visibility, chart_of_face, options, cache, steps);
   ChooseTexelSizes(model, photos, options, charts);
   const std::vector<PageSize> page_sizes =
       PackCharts(charts, options.gutter_texels, options.max_page_texels);

@@ -34,6 +34,46 @@ class FaceDepths {
   std::vector<Plane> planes_;
 };
 
+// Every pixel's least sum of a neighbour's value and the way to it, in eighths of a pixel: chamfer
+// distances on 5 x 5 (Borgefors 1986), 3 % off at most. Values end at 255.
+void SpreadDistances(Image8& steps) {
+  constexpr int kSide = 8;
+  constexpr int kDiagonal = 11;
+  constexpr int kKnight = 18;
+  constexpr int kMargin = 2;  // so that no pixel lacks neighbours
+  const int width = steps.width;
+  const int stride = width + 2 * kMargin;
+  // The two rows before the one at work, as they are after it.
+  std::vector<uint8_t> rows[3];
+  for (std::vector<uint8_t>& row : rows) row.assign(stride, 255);
+  const auto sweep = [&](int y) {
+    uint8_t* row = steps.At(0, y);
+    std::vector<uint8_t>& now = rows[0];
+    std::copy_n(row, width, now.begin() + kMargin);
+    const uint8_t* near = rows[1].data() + kMargin;
+    const uint8_t* far = rows[2].data() + kMargin;
+    uint8_t* at = now.data() + kMargin;
+    for (int x = 0; x < width; ++x) {
+      int least = at[x];
+      least = std::min(least, near[x] + kSide);
+      least = std::min(least, std::min(near[x - 1], near[x + 1]) + kDiagonal);
+      const int knights =
+          std::min(std::min(near[x - 2], near[x + 2]), std::min(far[x - 1], far[x + 1]));
+      least = std::min(least, knights + kKnight);
+      at[x] = static_cast<uint8_t>(least);
+    }
+    // Along the row, onwards and back.
+    for (int x = 1; x < width; ++x) at[x] = std::min<int>(at[x], at[x - 1] + kSide);
+    for (int x = width - 2; x >= 0; --x) at[x] = std::min<int>(at[x], at[x + 1] + kSide);
+    std::copy_n(at, width, row);
+    rows[2].swap(rows[1]);
+    rows[1].swap(rows[0]);
+  };
+  for (int y = 0; y < steps.height; ++y) sweep(y);
+  for (std::vector<uint8_t>& row : rows) row.assign(stride, 255);
+  for (int y = steps.height - 1; y >= 0; --y) sweep(y);
+}
+
 }  // namespace
 
 Image8 ComputeBorderDistance(const PolygonModel& model,
@@ -44,9 +84,10 @@ Image8 ComputeBorderDistance(const PolygonModel& model,
   const int width = labels.width;
   const int height = labels.height;
   const FaceDepths depths(model, camera);
-  // 0 at pixels beside a border, 255 elsewhere: what the distance transform wants.
-  cv::Mat jumps(height, width, CV_8U, cv::Scalar(255));
-  cv::Mat creases(height, width, CV_8U, cv::Scalar(255));
+  // Eighths of a pixel; a pixel beside a border has its centre half a pixel from it.
+  constexpr uint8_t kBesideJump = kBorderStepsPerPx / 2;
+  constexpr uint8_t kBesideCrease = (0.5 + kCreaseBonusPx) * kBorderStepsPerPx;
+  Image8 border(width, height, 1, 255);
   const auto compare = [&](int x, int y, int other_x, int other_y) {
     const uint16_t first = *labels.At(x, y);
     const uint16_t second = *labels.At(other_x, other_y);
@@ -65,33 +106,24 @@ Image8 ComputeBorderDistance(const PolygonModel& model,
                            std::abs(depths.At(second - 1, ray) - depths.At(second - 1, other));
       is_crease = std::abs(a - b) <= slope + 0.001 * std::abs(a);
     }
-    cv::Mat& target = is_crease ? creases : jumps;
-    target.at<uint8_t>(y, x) = 0;
-    target.at<uint8_t>(other_y, other_x) = 0;
+    const uint8_t steps = is_crease ? kBesideCrease : kBesideJump;
+    *border.At(x, y) = std::min(*border.At(x, y), steps);
+    *border.At(other_x, other_y) = std::min(*border.At(other_x, other_y), steps);
   };
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       if (x + 1 < width) compare(x, y, x + 1, y);
       if (y + 1 < height) compare(x, y, x, y + 1);
       if (*labels.At(x, y) == 0 || (!ignored.Empty() && *ignored.At(x, y) != 0)) {
-        jumps.at<uint8_t>(y, x) = 0;
+        *border.At(x, y) = kBesideJump;
       }
     }
   }
-  cv::Mat jump_distance;
-  cv::Mat crease_distance;
-  cv::distanceTransform(jumps, jump_distance, cv::DIST_L2, cv::DIST_MASK_5);
-  cv::distanceTransform(creases, crease_distance, cv::DIST_L2, cv::DIST_MASK_5);
-  Image8 border(width, height, 1);
+  SpreadDistances(border);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const bool is_ignored = !ignored.Empty() && *ignored.At(x, y) != 0;
-      if (*labels.At(x, y) == 0 || is_ignored) continue;
-      // A pixel beside a border has its centre half a pixel from it.
-      const double distance =
-          0.5 + std::min<double>(jump_distance.at<float>(y, x),
-                                 crease_distance.at<float>(y, x) + kCreaseBonusPx);
-      *border.At(x, y) = static_cast<uint8_t>(std::clamp(distance * kBorderStepsPerPx, 1.0, 255.0));
+      if (*labels.At(x, y) == 0 || is_ignored) *border.At(x, y) = 0;
     }
   }
   return border;

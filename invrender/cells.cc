@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace groundglass {
 namespace {
@@ -31,18 +32,47 @@ bool FindTexel(const ChartTexels& texels, int cell_x, int cell_y, int& best_x, i
   return best < 1e300;
 }
 
-CellView ViewCell(const PreparedPhoto& photo, const Sighting& sighting, double texel_size) {
+CellView ViewCell(const PreparedPhoto& photo,
+                  const PhotoPyramid& pixels,
+                  const Sighting& sighting,
+                  double texel_size) {
   constexpr float kBlack = 0.002f;
   constexpr float kBurnt = 0.93f;
   CellView view;
-  view.quality = static_cast<float>(sighting.quality);
+  view.quality = static_cast<float>(photo.Quality(sighting));
   view.radius_squared = static_cast<float>(photo.RadiusSquared(sighting.image_px));
-  const Eigen::Array3f radiance = photo.Sample(sighting, texel_size * kCellTexels, 2);
+  // One tap at the level where the cell is a pixel.
+  const Eigen::Array3f radiance =
+      pixels.Sample(sighting.image_px, sighting.px_from_unit * texel_size * kCellTexels, 1);
   view.is_usable =
       radiance.minCoeff() > kBlack && radiance.maxCoeff() < kBurnt && sighting.border_px > 2;
   view.log_radiance = radiance.max(kBlack / 4).log();
   return view;
 }
+
+// The photographs that may see some of the chart.
+std::vector<int> FindCandidates(const Chart& chart,
+                                int chart_index,
+                                const std::vector<PreparedPhoto>& photos) {
+  std::vector<int> facing;
+  std::vector<int> showing;
+  for (size_t photo = 0; photo < photos.size(); ++photo) {
+    if (!photos[photo].View(chart, chart_index).is_facing) continue;
+    facing.push_back(static_cast<int>(photo));
+    const bool shows = std::any_of(chart.faces.begin(), chart.faces.end(), [&](int face) {
+      return photos[photo].Shows(face);
+    });
+    if (shows) showing.push_back(static_cast<int>(photo));
+  }
+  // A sliver that falls between all photographs' pixels is still seen between them.
+  return showing.empty() ? facing : showing;
+}
+
+// Where a cell is looked up.
+struct CellSpot {
+  Eigen::Vector2d plane_point;
+  int face = -1;
+};
 
 }  // namespace
 
@@ -53,34 +83,47 @@ ChartCells ObserveCells(const Chart& chart,
   ChartCells cells;
   cells.width = (chart.width_texels + kCellTexels - 1) / kCellTexels;
   cells.height = (chart.height_texels + kCellTexels - 1) / kCellTexels;
-  cells.is_inside.assign(cells.NumCells(), 0);
-  const size_t num_photos = photos.size();
-  std::vector<CellView> all(num_photos * cells.NumCells());
+  std::vector<CellSpot> spots(cells.NumCells());
   tbb::parallel_for(0, cells.height, [&](int cell_y) {
     for (int cell_x = 0; cell_x < cells.width; ++cell_x) {
       int x = 0;
       int y = 0;
       if (!FindTexel(texels, cell_x, cell_y, x, y)) continue;
-      const int cell = cell_y * cells.width + cell_x;
-      cells.is_inside[cell] = 1;
-      const Eigen::Vector3d point = chart.PointInWorld(texels.PointAt(x, y));
-      for (size_t photo = 0; photo < num_photos; ++photo) {
-        const auto sighting = photos[photo].Sight(point, chart, chart_index, texels.FaceAt(x, y));
-        if (!sighting) continue;
-        all[cell * num_photos + photo] = ViewCell(photos[photo], *sighting, chart.texel_size);
-      }
+      spots[cell_y * cells.width + cell_x] = {chart.texel_size * texels.PointAt(x, y),
+                                              texels.FaceAt(x, y)};
     }
   });
-  std::vector<char> sees(num_photos, 0);
-  for (size_t i = 0; i < all.size(); ++i) {
-    if (all[i].quality > 0) sees[i % num_photos] = 1;
+  const std::vector<int> candidates = FindCandidates(chart, chart_index, photos);
+  const size_t num_candidates = candidates.size();
+  std::vector<CellView> all(num_candidates * cells.NumCells());
+  std::vector<char> sees(num_candidates, 0);
+  for (size_t k = 0; k < num_candidates; ++k) {
+    const PreparedPhoto& photo = photos[candidates[k]];
+    const ChartInCamera view = photo.View(chart, chart_index);
+    const std::shared_ptr<const PhotoPyramid> pixels = photo.Pixels();
+    std::vector<char> sees_row(cells.height, 0);
+    tbb::parallel_for(0, cells.height, [&](int cell_y) {
+      for (int cell = cell_y * cells.width; cell < (cell_y + 1) * cells.width; ++cell) {
+        if (spots[cell].face < 0) continue;
+        const auto sighting = photo.Sight(view, spots[cell].plane_point, spots[cell].face);
+        if (!sighting) continue;
+        CellView& cell_view = all[cell * num_candidates + k];
+        cell_view = ViewCell(photo, *pixels, *sighting, chart.texel_size);
+        if (cell_view.quality > 0) sees_row[cell_y] = 1;
+      }
+    });
+    sees[k] = std::find(sees_row.begin(), sees_row.end(), 1) != sees_row.end();
   }
-  for (size_t photo = 0; photo < num_photos; ++photo) {
-    if (sees[photo]) cells.photos.push_back(static_cast<int>(photo));
+  for (size_t k = 0; k < num_candidates; ++k) {
+    if (sees[k]) cells.photos.push_back(candidates[k]);
+  }
+  if (cells.photos.size() == num_candidates) {
+    cells.views = std::move(all);
+    return cells;
   }
   cells.views.reserve(cells.photos.size() * cells.NumCells());
-  for (int cell = 0; cell < cells.NumCells(); ++cell) {
-    for (const int photo : cells.photos) cells.views.push_back(all[cell * num_photos + photo]);
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (sees[i % num_candidates]) cells.views.push_back(all[i]);
   }
   return cells;
 }

@@ -27,14 +27,13 @@ struct ChartCells {
   int width = 0;  // cells
   int height = 0;
   std::vector<int> photos;      // those that see some of the chart, ascending
-  std::vector<char> is_inside;  // per cell: some texel of it has a face
   std::vector<CellView> views;  // [cell * photos.size() + k]
 
   int NumCells() const { return width * height; }
   const CellView* ViewsOf(int cell) const { return &views[cell * photos.size()]; }
 };
 
-// Looks every cell of a chart up in every photograph.
+// Looks every cell of a chart up in every photograph, one after the other.
 ChartCells ObserveCells(const Chart& chart,
                         int chart_index,
                         const ChartTexels& texels,

@@ -66,11 +66,11 @@ Palette LearnPalette(const ChartCells& cells, int chart, const ColourModel& colo
     cell_colours.Set(cells, cell, chart, colour);
     const size_t count = cell_colours.seen.size();
     for (size_t i = 0; i < count; ++i) {
-      for (size_t j = i + 1; j < count; ++j) {
-        if (cell_colours.Difference(i, j) > 1) continue;
-        palette.Add(cell_colours.colours[i]);
-        palette.Add(cell_colours.colours[j]);
+      int num_agreeing = 0;
+      for (size_t j = 0; j < count; ++j) {
+        num_agreeing += j != i && cell_colours.Difference(i, j) <= 1 ? 1 : 0;
       }
+      if (num_agreeing > 0) palette.Add(cell_colours.colours[i], num_agreeing);
     }
   }
   return palette;
@@ -165,7 +165,7 @@ void SettleDisputes(const ChartCells& cells,
 // the surroundings' say.
 std::vector<float> MeasureDissent(const ChartCells& cells, int chart, const ColourModel& colour) {
   const size_t num_photos = cells.photos.size();
-  const Palette palette = LearnPalette(cells, chart, colour);
+  Palette palette = LearnPalette(cells, chart, colour);
   std::vector<float> cost(cells.views.size(), -1);
   CellColours cell_colours;
   for (int cell = 0; cell < cells.NumCells(); ++cell) {

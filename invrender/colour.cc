@@ -29,6 +29,12 @@ float Median(std::vector<float>& values) {
   return values[middle];
 }
 
+// Every how manieth cell to look at, so that about `enough` are, and not always the same columns.
+int StepThrough(const ChartCells& cells, int enough) {
+  const int step = std::max(1, cells.NumCells() / enough);
+  return step > 1 && cells.width % step == 0 ? step + 1 : step;
+}
+
 // The cells of one chart that two photographs both show.
 struct Pair {
   int first = 0;  // photographs
@@ -39,24 +45,36 @@ struct Pair {
 
 std::vector<Pair> FindPairs(const std::vector<ChartCells>& cells) {
   constexpr size_t kFewest = 6;
-  constexpr size_t kEnough = 2000;
+  constexpr size_t kEnough = 600;
+  constexpr int kEnoughCells = 20000;
   std::vector<Pair> pairs;
   for (const ChartCells& chart : cells) {
-    for (size_t a = 0; a < chart.photos.size(); ++a) {
-      for (size_t b = a + 1; b < chart.photos.size(); ++b) {
-        Pair pair{chart.photos[a], chart.photos[b], {}, Eigen::Array3f::Zero()};
-        for (int cell = 0; cell < chart.NumCells(); ++cell) {
-          const CellView* views = chart.ViewsOf(cell);
-          if (views[a].is_usable && views[b].is_usable)
-            pair.views.emplace_back(&views[a], &views[b]);
+    const size_t num_photos = chart.photos.size();
+    std::vector<std::vector<int>> shared(num_photos * num_photos);  // cells
+    std::vector<size_t> usable;
+    for (int cell = 0; cell < chart.NumCells(); cell += StepThrough(chart, kEnoughCells)) {
+      const CellView* views = chart.ViewsOf(cell);
+      usable.clear();
+      for (size_t k = 0; k < num_photos; ++k) {
+        if (views[k].is_usable) usable.push_back(k);
+      }
+      for (size_t i = 0; i < usable.size(); ++i) {
+        for (size_t j = i + 1; j < usable.size(); ++j) {
+          shared[usable[i] * num_photos + usable[j]].push_back(cell);
         }
-        if (pair.views.size() < kFewest) continue;
-        if (pair.views.size() > kEnough) {
-          const size_t num_views = pair.views.size();
-          for (size_t i = 0; i < kEnough; ++i) pair.views[i] = pair.views[i * num_views / kEnough];
-          pair.views.resize(kEnough);
+      }
+    }
+    for (size_t a = 0; a < num_photos; ++a) {
+      for (size_t b = a + 1; b < num_photos; ++b) {
+        const std::vector<int>& both = shared[a * num_photos + b];
+        if (both.size() < kFewest) continue;
+        Pair& pair =
+            pairs.emplace_back(Pair{chart.photos[a], chart.photos[b], {}, Eigen::Array3f::Zero()});
+        const size_t count = std::min(both.size(), kEnough);
+        for (size_t i = 0; i < count; ++i) {
+          const CellView* views = chart.ViewsOf(both[i * both.size() / count]);
+          pair.views.emplace_back(&views[a], &views[b]);
         }
-        pairs.push_back(std::move(pair));
       }
     }
   }
@@ -166,13 +184,13 @@ void SolveGains(std::vector<Pair>& pairs, int channel, std::vector<ColourModel::
 // One round of face gains around the cells' weighted medians.
 void SolveFaceGains(const std::vector<ChartCells>& cells, ColourModel& colour) {
   constexpr double kFewCells = 12;    // below this many, a chart's gain is pulled to none
-  constexpr int kEnoughCells = 8000;  // medians need no more
+  constexpr int kEnoughCells = 3000;  // medians need no more
   for (size_t chart = 0; chart < cells.size(); ++chart) {
     const ChartCells& grid = cells[chart];
     std::vector<Eigen::Array3f> shift(grid.photos.size(), Eigen::Array3f::Zero());
     std::vector<std::pair<float, float>> sorted;
     std::vector<double> count(grid.photos.size(), 0);
-    const int step = std::max(1, grid.NumCells() / kEnoughCells);
+    const int step = StepThrough(grid, kEnoughCells);
     for (int channel = 0; channel < 3; ++channel) {
       std::vector<std::vector<std::pair<float, float>>> residuals(grid.photos.size());
       for (int cell = 0; cell < grid.NumCells(); cell += step) {

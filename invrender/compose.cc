@@ -5,8 +5,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 
 namespace groundglass {
 namespace {
@@ -15,6 +17,7 @@ namespace {
 struct Ingredient {
   int k = -1;
   double weight = 0;
+  bool is_seen = false;
   Sighting sighting;
 };
 
@@ -49,80 +52,67 @@ struct CellBlend {
   }
 };
 
-class Composer {
+// Decides which photographs a texel is mixed of, and finds their places.
+class Mixer {
  public:
-  Composer(const Chart& chart,
-           int chart_index,
-           const ChartTexels& texels,
-           const std::vector<PreparedPhoto>& photos,
-           const ChartCells& cells,
-           const ChartChoice& choice,
-           const ColourModel& colour,
-           const BakeOptions& options)
+  Mixer(const Chart& chart,
+        int chart_index,
+        const ChartTexels& texels,
+        const std::vector<PreparedPhoto>& photos,
+        const ChartCells& cells,
+        const ChartChoice& choice,
+        const BakeOptions& options)
       : chart_(chart),
-        chart_index_(chart_index),
         texels_(texels),
         photos_(photos),
         cells_(cells),
         choice_(choice),
-        colour_(colour),
-        options_(options) {}
+        options_(options) {
+    for (const int photo : cells.photos) views_.push_back(photos[photo].View(chart, chart_index));
+  }
+
+  // Where all cells around a texel chose the same photograph, and it shows the texel clear of
+  // borders: the photograph's k, else -1.
+  int GatherFast(int x, int y, Sighting& sighting) const {
+    const CellBlend blend(x, y, cells_, options_.smooth_seams);
+    const int k = choice_.best[blend.cells[0]];
+    if (k < 0) return -1;
+    for (int corner = 1; corner < 4; ++corner) {
+      if (choice_.best[blend.cells[corner]] != k) return -1;
+    }
+    const auto seen = photos_[cells_.photos[k]].Sight(
+        views_[k], chart_.texel_size * texels_.PointAt(x, y), texels_.FaceAt(x, y));
+    if (!seen || seen->border_px < options_.border_margin_px + 1.5) return -1;
+    sighting = *seen;
+    return k;
+  }
 
   // The photographs of one texel with weights that sum to 1; empty if none shows it.
   void Gather(int x, int y, std::vector<Ingredient>& ingredients) const {
     ingredients.clear();
-    const Eigen::Vector3d point = chart_.PointInWorld(texels_.PointAt(x, y));
+    const Eigen::Vector2d plane_point = chart_.texel_size * texels_.PointAt(x, y);
     const int face = texels_.FaceAt(x, y);
     const CellBlend blend(x, y, cells_, options_.smooth_seams);
     double chosen = 0;
     for (int corner = 0; corner < 4; ++corner) {
       const int k = choice_.best[blend.cells[corner]];
       if (k < 0 || blend.weights[corner] <= 0) continue;
-      Ingredient& ingredient = Find(k, point, face, ingredients);
-      const double weight = blend.weights[corner] * BorderWeight(ingredient.sighting);
+      Ingredient& ingredient = Find(k, plane_point, face, ingredients);
+      const double weight = blend.weights[corner] * BorderWeight(ingredient);
       ingredient.weight += weight;
       chosen += weight;
     }
-    if (chosen < 0.5) {
-      // Those chosen do not see enough of it: the others, the better the more.
-      double best = 0;
-      std::vector<double> quality(cells_.photos.size(), 0);
-      for (size_t k = 0; k < cells_.photos.size(); ++k) {
-        const Ingredient& ingredient = Find(static_cast<int>(k), point, face, ingredients);
-        double acceptance = 0;
-        for (int corner = 0; corner < 4; ++corner) {
-          acceptance += blend.weights[corner] *
-                        choice_.acceptance[blend.cells[corner] * cells_.photos.size() + k];
-        }
-        quality[k] = ingredient.sighting.quality * (acceptance + 1e-6);
-        best = std::max(best, quality[k]);
-      }
-      if (best > 0) {
-        for (Ingredient& ingredient : ingredients) {
-          const double share = quality[ingredient.k] / best;
-          ingredient.weight += (0.5 - chosen) * 1e-2 * share * share * share * share;
-        }
-      }
+    if (chosen < 0.5) AddOthers(plane_point, face, blend, chosen, ingredients);
+    if (ingredients.size() > 1 || chosen < 0.5) {
+      double largest = 0;
+      for (const Ingredient& i : ingredients) largest = std::max(largest, i.weight);
+      std::erase_if(ingredients, [&](const Ingredient& i) {
+        return i.weight <= 0 || i.weight < 0.02 * largest;
+      });
     }
-    std::erase_if(ingredients, [](const Ingredient& i) { return i.weight <= 0; });
     double sum = 0;
-    double largest = 0;
-    for (const Ingredient& i : ingredients) largest = std::max(largest, i.weight);
-    std::erase_if(ingredients, [&](const Ingredient& i) { return i.weight < 0.02 * largest; });
     for (const Ingredient& i : ingredients) sum += i.weight;
     for (Ingredient& i : ingredients) i.weight /= sum;
-  }
-
-  Eigen::Array3f Mix(const std::vector<Ingredient>& ingredients) const {
-    Eigen::Array3f radiance = Eigen::Array3f::Zero();
-    for (const Ingredient& i : ingredients) {
-      const int photo = cells_.photos[i.k];
-      const Eigen::Array3f sample = photos_[photo].Sample(i.sighting, chart_.texel_size, 4);
-      radiance += static_cast<float>(i.weight) * sample *
-                  colour_.Correction(
-                      photo, chart_index_, i.k, photos_[photo].RadiusSquared(i.sighting.image_px));
-    }
-    return radiance;
   }
 
   bool IsGood(const std::vector<Ingredient>& ingredients) const {
@@ -141,9 +131,8 @@ class Composer {
   }
 
  private:
-  // Quality 0 stands for "does not see it".
   Ingredient& Find(int k,
-                   const Eigen::Vector3d& point,
+                   const Eigen::Vector2d& plane_point,
                    int face,
                    std::vector<Ingredient>& ingredients) const {
     for (Ingredient& ingredient : ingredients) {
@@ -151,26 +140,82 @@ class Composer {
     }
     Ingredient& ingredient = ingredients.emplace_back();
     ingredient.k = k;
-    const auto sighting = photos_[cells_.photos[k]].Sight(point, chart_, chart_index_, face);
+    const auto sighting = photos_[cells_.photos[k]].Sight(views_[k], plane_point, face);
+    ingredient.is_seen = sighting.has_value();
     if (sighting) ingredient.sighting = *sighting;
     return ingredient;
   }
 
-  double BorderWeight(const Sighting& sighting) const {
-    if (sighting.quality <= 0) return 0;
-    const double t = (sighting.border_px - options_.border_margin_px + 0.5) / 2;
+  // Those chosen do not see enough of it: the others, the better the more.
+  void AddOthers(const Eigen::Vector2d& plane_point,
+                 int face,
+                 const CellBlend& blend,
+                 double chosen,
+                 std::vector<Ingredient>& ingredients) const {
+    double best = 0;
+    std::vector<double> quality(cells_.photos.size(), 0);
+    for (size_t k = 0; k < cells_.photos.size(); ++k) {
+      const Ingredient& ingredient = Find(static_cast<int>(k), plane_point, face, ingredients);
+      if (!ingredient.is_seen) continue;
+      double acceptance = 0;
+      for (int corner = 0; corner < 4; ++corner) {
+        acceptance += blend.weights[corner] *
+                      choice_.acceptance[blend.cells[corner] * cells_.photos.size() + k];
+      }
+      quality[k] = photos_[cells_.photos[k]].Quality(ingredient.sighting) * (acceptance + 1e-6);
+      best = std::max(best, quality[k]);
+    }
+    if (best <= 0) return;
+    for (Ingredient& ingredient : ingredients) {
+      const double share = quality[ingredient.k] / best;
+      ingredient.weight += (0.5 - chosen) * 1e-2 * share * share * share * share;
+    }
+  }
+
+  double BorderWeight(const Ingredient& ingredient) const {
+    if (!ingredient.is_seen) return 0;
+    const double t = (ingredient.sighting.border_px - options_.border_margin_px + 0.5) / 2;
     return std::clamp(t, 1e-3, 1.0);
   }
 
   const Chart& chart_;
-  int chart_index_;
   const ChartTexels& texels_;
   const std::vector<PreparedPhoto>& photos_;
   const ChartCells& cells_;
   const ChartChoice& choice_;
-  const ColourModel& colour_;
   const BakeOptions& options_;
+  std::vector<ChartInCamera> views_;
 };
+
+// What radiance is multiplied by, as a table over the squared distance from the image's centre.
+class CorrectionTable {
+ public:
+  CorrectionTable(const ColourModel& colour, int photo, int chart, int k) {
+    for (int i = 0; i <= kSteps + 1; ++i) {
+      values_[i] = colour.Correction(photo, chart, k, static_cast<double>(i) / kSteps);
+    }
+  }
+  Eigen::Array3f At(double radius_squared) const {
+    const auto position = static_cast<float>(std::clamp(radius_squared, 0.0, 1.0) * kSteps);
+    const int index = static_cast<int>(position);
+    const float t = position - static_cast<float>(index);
+    return (1 - t) * values_[index] + t * values_[index + 1];
+  }
+
+ private:
+  static constexpr int kSteps = 64;
+  std::array<Eigen::Array3f, kSteps + 2> values_;
+};
+
+// One look-up for a texel of a strip.
+struct Lookup {
+  int texel = 0;
+  float weight = 0;
+  Eigen::Vector2f image_px;
+  Eigen::Matrix2f px_from_unit;
+};
+
+constexpr int kFootprintStep = 4;  // of every fourth texel each way the footprint is kept
 
 }  // namespace
 
@@ -182,7 +227,7 @@ ChartPixels ComposeChart(const Chart& chart,
                          const ChartChoice& choice,
                          const ColourModel& colour,
                          const BakeOptions& options) {
-  constexpr int kFootprintStep = 4;
+  constexpr int kStripRows = 32;
   const int width = chart.width_texels;
   const int height = chart.height_texels;
   ChartPixels pixels;
@@ -190,54 +235,94 @@ ChartPixels ComposeChart(const Chart& chart,
   pixels.provenance = Image16(width, height, 1);
   pixels.states = Raster<uint8_t>(width, height, 1);
   pixels.reach = Raster<uint8_t>(width, height, 1);
-  const Composer composer(chart, chart_index, texels, photos, cells, choice, colour, options);
+  const Mixer mixer(chart, chart_index, texels, photos, cells, choice, options);
+  std::vector<CorrectionTable> corrections;
+  for (size_t k = 0; k < cells.photos.size(); ++k) {
+    corrections.emplace_back(colour, cells.photos[k], chart_index, static_cast<int>(k));
+  }
   Raster<float> footprints((width + kFootprintStep - 1) / kFootprintStep,
                            (height + kFootprintStep - 1) / kFootprintStep,
                            1);
-  tbb::parallel_for(0, height, [&](int y) {
+  // Strip by strip: first who shows each texel and where, then photograph by photograph what.
+  tbb::parallel_for(0, (height + kStripRows - 1) / kStripRows, [&](int strip) {
+    const int y0 = strip * kStripRows;
+    const int y1 = std::min(height, y0 + kStripRows);
+    std::vector<std::vector<Lookup>> lookups(cells.photos.size());
     std::vector<Ingredient> ingredients;
-    for (int x = 0; x < width; ++x) {
-      if (texels.FaceAt(x, y) < 0) continue;
-      composer.Gather(x, y, ingredients);
-      TexelState state = TexelState::kOpen;
-      if (!ingredients.empty()) {
-        state = composer.IsGood(ingredients) ? TexelState::kGood : TexelState::kWeak;
-        const Eigen::Array3f radiance = composer.Mix(ingredients);
-        for (int c = 0; c < 3; ++c) pixels.srgb8.At(x, y)[c] = Srgb8FromRadiance(radiance[c]);
-        const auto main = std::max_element(
-            ingredients.begin(), ingredients.end(), [](const Ingredient& a, const Ingredient& b) {
-              return a.weight < b.weight || (a.weight == b.weight && a.k > b.k);
-            });
-        if (state == TexelState::kWeak) {
-          *pixels.reach.At(x, y) = composer.ReachFromBorder(main->sighting);
+    for (int y = y0; y < y1; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (texels.FaceAt(x, y) < 0) continue;
+        ingredients.resize(1);
+        ingredients[0].k = mixer.GatherFast(x, y, ingredients[0].sighting);
+        ingredients[0].weight = 1;
+        if (ingredients[0].k < 0) mixer.Gather(x, y, ingredients);
+        TexelState state = TexelState::kOpen;
+        if (!ingredients.empty()) {
+          state = mixer.IsGood(ingredients) ? TexelState::kGood : TexelState::kWeak;
+          for (const Ingredient& i : ingredients) {
+            lookups[i.k].push_back({(y - y0) * width + x,
+                                    static_cast<float>(i.weight),
+                                    i.sighting.image_px.cast<float>(),
+                                    i.sighting.px_from_unit.cast<float>()});
+          }
+          const auto main = std::max_element(
+              ingredients.begin(), ingredients.end(), [](const Ingredient& a, const Ingredient& b) {
+                return a.weight < b.weight || (a.weight == b.weight && a.k > b.k);
+              });
+          if (state == TexelState::kWeak) {
+            *pixels.reach.At(x, y) = mixer.ReachFromBorder(main->sighting);
+          }
+          *pixels.provenance.At(x, y) = static_cast<uint16_t>(cells.photos[main->k] + 1);
+          if (x % kFootprintStep == 0 && y % kFootprintStep == 0) {
+            *footprints.At(x / kFootprintStep, y / kFootprintStep) = static_cast<float>(
+                1 / std::sqrt(std::abs(main->sighting.px_from_unit.determinant())));
+          }
         }
-        *pixels.provenance.At(x, y) = static_cast<uint16_t>(cells.photos[main->k] + 1);
-        if (x % kFootprintStep == 0 && y % kFootprintStep == 0) {
-          *footprints.At(x / kFootprintStep, y / kFootprintStep) = static_cast<float>(
-              1 / std::sqrt(std::abs(main->sighting.px_from_unit.determinant())));
-        }
+        *pixels.states.At(x, y) = static_cast<uint8_t>(state);
       }
-      *pixels.states.At(x, y) = static_cast<uint8_t>(state);
+    }
+    std::vector<Eigen::Array3f> radiance(static_cast<size_t>(width) * (y1 - y0),
+                                         Eigen::Array3f::Zero());
+    for (size_t k = 0; k < lookups.size(); ++k) {
+      if (lookups[k].empty()) continue;
+      const PreparedPhoto& photo = photos[cells.photos[k]];
+      const std::shared_ptr<const PhotoPyramid> pyramid = photo.Pixels();
+      for (const Lookup& lookup : lookups[k]) {
+        const Eigen::Vector2d image_px = lookup.image_px.cast<double>();
+        radiance[lookup.texel] +=
+            lookup.weight *
+            pyramid->Sample(image_px, lookup.px_from_unit.cast<double>() * chart.texel_size, 4) *
+            corrections[k].At(photo.RadiusSquared(image_px));
+      }
+    }
+    for (int y = y0; y < y1; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const Eigen::Array3f& value = radiance[static_cast<size_t>(y - y0) * width + x];
+        uint8_t* srgb8 = pixels.srgb8.At(x, y);
+        for (int c = 0; c < 3; ++c) srgb8[c] = Srgb8FromRadiance(value[c]);
+      }
     }
   });
 
   std::map<std::pair<int, int>, FaceSource> sources;
+  FaceSource* last = nullptr;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int photo = *pixels.provenance.At(x, y) - 1;
       if (photo < 0 || !texels.IsCentreInside(x, y)) continue;
-      FaceSource& source = sources[{texels.FaceAt(x, y), photo}];
-      ++source.num_texels;
+      const int face = texels.FaceAt(x, y);
+      if (!last || last->face != face || last->photo != photo) {
+        last = &sources[{face, photo}];
+        last->face = face;
+        last->photo = photo;
+      }
+      ++last->num_texels;
       if (x % kFootprintStep == 0 && y % kFootprintStep == 0) {
-        source.footprints.push_back(*footprints.At(x / kFootprintStep, y / kFootprintStep));
+        last->footprints.push_back(*footprints.At(x / kFootprintStep, y / kFootprintStep));
       }
     }
   }
-  for (auto& [key, source] : sources) {
-    source.face = key.first;
-    source.photo = key.second;
-    pixels.sources.push_back(std::move(source));
-  }
+  for (auto& [key, source] : sources) pixels.sources.push_back(std::move(source));
   return pixels;
 }
 

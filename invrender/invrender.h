@@ -11,6 +11,7 @@
 #include "scene/visibility.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,6 +56,9 @@ struct BakeOptions {
   bool smooth_seams = true;
   // Paints over what no photograph shows, from what lies around it; provenance says so.
   bool fill_gaps = false;
+
+  // Gets each photograph's automatic face mask (MakeFaceMask), from several threads at once.
+  std::function<void(const BakePhotograph& photograph, const Image16& labels)> on_face_mask;
 
   void Check() const;  // throws Error naming the first field out of range
 };

@@ -20,14 +20,17 @@ uint64_t Palette::Bin(const Eigen::Array3f& log_radiance, int dx, int dy, int dz
          index(log_radiance[2], dz);
 }
 
-void Palette::Add(const Eigen::Array3f& log_radiance) {
-  counts_[Bin(log_radiance, 0, 0, 0)] += 1;
-  total_ += 1;
+void Palette::Add(const Eigen::Array3f& log_radiance, double count) {
+  counts_[Bin(log_radiance, 0, 0, 0)] += count;
+  total_ += count;
+  surprises_.clear();
 }
 
-float Palette::Surprise(const Eigen::Array3f& log_radiance) const {
+float Palette::Surprise(const Eigen::Array3f& log_radiance) {
   constexpr double kFewest = 100;
   if (total_ < kFewest) return 0;
+  const auto [known, is_new] = surprises_.try_emplace(Bin(log_radiance, 0, 0, 0), 0.0f);
+  if (!is_new) return known->second;
   double count = 0;
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
@@ -39,7 +42,9 @@ float Palette::Surprise(const Eigen::Array3f& log_radiance) const {
   }
   // A colour that makes up a twentieth of the wall is ordinary.
   const double share = count / total_;
-  return std::clamp(static_cast<float>(-std::log((share + 1e-4) / 0.05)), 0.0f, kMostSurprising);
+  known->second =
+      std::clamp(static_cast<float>(-std::log((share + 1e-4) / 0.05)), 0.0f, kMostSurprising);
+  return known->second;
 }
 
 }  // namespace groundglass

@@ -80,6 +80,12 @@ PhotoPyramid::PhotoPyramid(Image8 srgb8) {
   }
 }
 
+size_t PhotoPyramid::NumBytes() const {
+  size_t num_bytes = 0;
+  for (const Image8& level : levels_) num_bytes += level.values.size();
+  return num_bytes;
+}
+
 Eigen::Array3f PhotoPyramid::Bicubic(const Image8& level, double x, double y) const {
   const std::array<float, 256>& radiance = RadianceTable();
   const double fx = std::floor(x - 0.5);
@@ -88,17 +94,20 @@ Eigen::Array3f PhotoPyramid::Bicubic(const Image8& level, double x, double y) co
   const std::array<float, 4> wy = CubicWeights(static_cast<float>(y - 0.5 - fy));
   const int x0 = static_cast<int>(fx) - 1;
   const int y0 = static_cast<int>(fy) - 1;
-  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  // Where the four columns start in a row, clamped at the frame.
+  std::array<int, 4> columns;
+  for (int i = 0; i < 4; ++i) columns[i] = 3 * std::clamp(x0 + i, 0, level.width - 1);
+  std::array<float, 3> sum = {0, 0, 0};
   for (int j = 0; j < 4; ++j) {
-    const int row = std::clamp(y0 + j, 0, level.height - 1);
-    Eigen::Array3f in_row = Eigen::Array3f::Zero();
+    const uint8_t* row = level.At(0, std::clamp(y0 + j, 0, level.height - 1));
+    std::array<float, 3> in_row = {0, 0, 0};
     for (int i = 0; i < 4; ++i) {
-      const uint8_t* pixel = level.At(std::clamp(x0 + i, 0, level.width - 1), row);
-      in_row += wx[i] * Eigen::Array3f(radiance[pixel[0]], radiance[pixel[1]], radiance[pixel[2]]);
+      const uint8_t* pixel = row + columns[i];
+      for (int c = 0; c < 3; ++c) in_row[c] += wx[i] * radiance[pixel[c]];
     }
-    sum += wy[j] * in_row;
+    for (int c = 0; c < 3; ++c) sum[c] += wy[j] * in_row[c];
   }
-  return sum.max(0.0f);
+  return {std::max(sum[0], 0.0f), std::max(sum[1], 0.0f), std::max(sum[2], 0.0f)};
 }
 
 Eigen::Array3f PhotoPyramid::Bilinear(const Image8& level, double x, double y) const {

@@ -23,6 +23,7 @@ class PhotoPyramid {
                         int max_taps = 4) const;
 
   const Image8& Full() const { return levels_.front(); }
+  size_t NumBytes() const;
 
  private:
   Eigen::Array3f Bicubic(const Image8& level, double x, double y) const;

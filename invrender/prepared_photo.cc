@@ -23,11 +23,8 @@ void CheckSize(const std::filesystem::path& file, int width, int height, const C
                   SizeText(camera.width_px, camera.height_px));
 }
 
-Image8 ReadPhotograph(const BakePhotograph& photograph) {
-  Image8 srgb8 = ReadSrgb8(photograph.image_file);
-  CheckSize(photograph.image_file, srgb8.width, srgb8.height, photograph.camera);
-  return srgb8;
-}
+// This many pixels beyond the margin a border no longer lowers a pixel's quality.
+constexpr double kTrustedFrom = 4;
 
 // 0 below `low`, 1 above `high`, smooth between.
 double SmoothStep(double low, double high, double value) {
@@ -38,42 +35,50 @@ double SmoothStep(double low, double high, double value) {
 }  // namespace
 
 PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
+                             int index,
                              const PolygonModel& model,
                              const Visibility& visibility,
                              const std::vector<int>& chart_of_face,
-                             const BakeOptions& options)
+                             const BakeOptions& options,
+                             PhotoCache& cache)
     : visibility_(visibility),
       chart_of_face_(chart_of_face),
+      cache_(cache),
+      index_(index),
       camera_(photograph.camera),
       position_in_world_(photograph.camera.PositionInWorld()),
+      half_size_px_(photograph.camera.width_px / 2.0, photograph.camera.height_px / 2.0),
       weight_(photograph.weight),
       frame_margin_px_(std::max(1.0, options.frame_margin * photograph.camera.width_px)),
       border_margin_px_(options.border_margin_px),
       tolerance_(visibility.DefaultTolerance()),
-      is_hand_painted_(photograph.faces_file.has_value()),
-      pyramid_(ReadPhotograph(photograph)) {
+      is_hand_painted_(photograph.faces_file.has_value()) {
   if (photograph.faces) {
     allowed_.assign(model.faces.size(), 0);
     for (const int face : *photograph.faces) allowed_.at(face) = 1;
   }
+  const ImageSize size = ReadImageSize(photograph.image_file);
+  CheckSize(photograph.image_file, size.width, size.height, camera_);
+  Image16 labels;
+  if (!is_hand_painted_ || options.on_face_mask) labels = MakeFaceMask(model, visibility, camera_);
+  if (options.on_face_mask) options.on_face_mask(photograph, labels);
   if (is_hand_painted_) {
-    labels_ = ReadLabels(*photograph.faces_file);
-    CheckSize(*photograph.faces_file, labels_.width, labels_.height, camera_);
-    for (const uint16_t label : labels_.values) {
+    labels = ReadLabels(*photograph.faces_file);
+    CheckSize(*photograph.faces_file, labels.width, labels.height, camera_);
+    for (const uint16_t label : labels.values) {
       if (label > model.faces.size()) {
         throw Error(*photograph.faces_file,
                     "names face " + std::to_string(label) + ", but the model has " +
                         std::to_string(model.faces.size()));
       }
     }
-  } else {
-    labels_ = MakeFaceMask(model, visibility, camera_);
   }
-  Image8 ignored(camera_.width_px, camera_.height_px, 1);
-  if (options.detect_mount) ignored = FindMount(pyramid_.Full());
+  Image8 ignored;
+  if (options.detect_mount) ignored = FindMount(Pixels()->Full());
   if (photograph.mask_file) {
     const Image16 mask = ReadLabels(*photograph.mask_file);
     CheckSize(*photograph.mask_file, mask.width, mask.height, camera_);
+    if (ignored.Empty()) ignored = Image8(camera_.width_px, camera_.height_px, 1);
     // White may be 255 or 65535, and anything brighter than the middle is white.
     const uint16_t top = *std::max_element(mask.values.begin(), mask.values.end());
     const int threshold = top > 255 ? 32768 : 128;
@@ -81,74 +86,91 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
       if (mask.values[i] >= threshold) ignored.values[i] = 255;
     }
   }
-  border_ = ComputeBorderDistance(model, camera_, labels_, chart_of_face, ignored);
+  // Farther than this from a border, distance no longer matters.
+  const double farthest_px = std::max(border_margin_px_ + kTrustedFrom, 3 + kCreaseBonusPx) + 1;
+  sight_map_ = SightMap(labels,
+                        ComputeBorderDistance(model, camera_, labels, chart_of_face, ignored),
+                        std::min(255, static_cast<int>(farthest_px * kBorderStepsPerPx)));
+  is_shown_ = sight_map_.ShownFaces(model.faces.size());
 }
 
-double PreparedPhoto::RadiusSquared(const Eigen::Vector2d& image_px) const {
-  const Eigen::Vector2d half(camera_.width_px / 2.0, camera_.height_px / 2.0);
-  return (image_px - half).squaredNorm() / half.squaredNorm();
+ChartInCamera PreparedPhoto::View(const Chart& chart, int chart_index) const {
+  const RigidTransform& cam_from_world = camera_.cam_from_world;
+  ChartInCamera view;
+  view.chart = &chart;
+  view.chart_index = chart_index;
+  view.is_facing = (position_in_world_ - chart.origin_in_world).dot(chart.normal_in_world) > 0;
+  view.origin_in_cam = cam_from_world * chart.origin_in_world;
+  view.right_in_cam = cam_from_world.rotation * chart.right_in_world;
+  view.down_in_cam = cam_from_world.rotation * chart.down_in_world;
+  return view;
 }
 
 bool PreparedPhoto::IsPaintedBeside(const Eigen::Vector2d& image_px, int face) const {
   const int x0 = static_cast<int>(std::floor(image_px.x() - 0.5));
   const int y0 = static_cast<int>(std::floor(image_px.y() - 0.5));
-  for (int y = std::max(0, y0); y <= std::min(labels_.height - 1, y0 + 1); ++y) {
-    for (int x = std::max(0, x0); x <= std::min(labels_.width - 1, x0 + 1); ++x) {
-      if (*labels_.At(x, y) == face + 1 && *border_.At(x, y) != 0) return true;
+  for (int y = std::max(0, y0); y <= std::min(sight_map_.height() - 1, y0 + 1); ++y) {
+    for (int x = std::max(0, x0); x <= std::min(sight_map_.width() - 1, x0 + 1); ++x) {
+      const SightMap::Pixel pixel = sight_map_.At(x, y);
+      if (pixel.label == face + 1 && pixel.border != 0) return true;
     }
   }
   return false;
 }
 
-std::optional<Sighting> PreparedPhoto::Sight(const Eigen::Vector3d& point_in_world,
-                                             const Chart& chart,
-                                             int chart_index,
+std::optional<Sighting> PreparedPhoto::Sight(const ChartInCamera& view,
+                                             const Eigen::Vector2d& plane_point,
                                              int face) const {
-  const Eigen::Vector3d to_camera = position_in_world_ - point_in_world;
-  if (to_camera.dot(chart.normal_in_world) <= 0 || !MayTexture(face)) return std::nullopt;
-  const Eigen::Vector3d in_cam = camera_.cam_from_world * point_in_world;
+  if (!view.is_facing || !MayTexture(face)) return std::nullopt;
+  const Eigen::Vector3d in_cam =
+      view.origin_in_cam + plane_point.x() * view.right_in_cam + plane_point.y() * view.down_in_cam;
   const auto image_px = ProjectFromCam(camera_, in_cam);
   if (!image_px) return std::nullopt;
-  const double frame_px = std::min({image_px->x(),
-                                    image_px->y(),
-                                    camera_.width_px - image_px->x(),
-                                    camera_.height_px - image_px->y()});
-  if (!(frame_px >= frame_margin_px_)) return std::nullopt;
-  const int x = static_cast<int>(image_px->x());
-  const int y = static_cast<int>(image_px->y());
-  const uint16_t label = *labels_.At(x, y);
-  const double border_px = *border_.At(x, y) / kBorderStepsPerPx;
-  const bool is_own = label != 0 && chart_of_face_[label - 1] == chart_index;
+  Sighting sighting;
+  sighting.image_px = *image_px;
+  sighting.frame_px = std::min({image_px->x(),
+                                image_px->y(),
+                                camera_.width_px - image_px->x(),
+                                camera_.height_px - image_px->y()});
+  if (!(sighting.frame_px >= frame_margin_px_)) return std::nullopt;
+  const SightMap::Pixel pixel =
+      sight_map_.At(static_cast<int>(image_px->x()), static_cast<int>(image_px->y()));
+  const double border_px = pixel.border / kBorderStepsPerPx;
+  const bool is_own = pixel.label != 0 && chart_of_face_[pixel.label - 1] == view.chart_index;
   if (is_hand_painted_) {
-    const bool is_painted = label == face + 1;
+    const bool is_painted = pixel.label == face + 1;
     if (is_painted ? border_px == 0 : !IsPaintedBeside(*image_px, face)) return std::nullopt;
   } else if (border_px < 1.5 + kCreaseBonusPx) {
     // The pixel's centre does not speak for its whole: ask for the very point.
     if (border_px == 0 && is_own) return std::nullopt;  // ignored
+    const Eigen::Vector3d point_in_world = view.chart->origin_in_world +
+                                           plane_point.x() * view.chart->right_in_world +
+                                           plane_point.y() * view.chart->down_in_world;
     if (!visibility_.IsClear(position_in_world_, point_in_world, tolerance_)) return std::nullopt;
   } else if (!is_own) {
     return std::nullopt;
   }
-
-  Sighting sighting;
-  sighting.image_px = *image_px;
   sighting.border_px = is_own ? border_px : 0;  // 0 also half a pixel beside what was painted
+
   // d(image) / d(point), through the distortion.
   const Eigen::Vector2d n = in_cam.hnormalized();
+  Eigen::Matrix<double, 2, 3> n_from_cam;
+  n_from_cam << 1, 0, -n.x(), 0, 1, -n.y();
+  n_from_cam /= in_cam.z();
+  Eigen::Matrix2d n_from_plane;
+  n_from_plane.col(0) = n_from_cam * view.right_in_cam;
+  n_from_plane.col(1) = n_from_cam * view.down_in_cam;
   const double r2 = n.squaredNorm();
   const double s = 1 + r2 * (camera_.k1 + r2 * camera_.k2);
   const double ds = 2 * (camera_.k1 + 2 * camera_.k2 * r2);
   Eigen::Matrix2d image_from_n = s * Eigen::Matrix2d::Identity() + ds * n * n.transpose();
   image_from_n.row(0) *= camera_.focal_x_px;
   image_from_n.row(1) *= camera_.focal_y_px;
-  Eigen::Matrix<double, 2, 3> n_from_cam;
-  n_from_cam << 1, 0, -n.x(), 0, 1, -n.y();
-  n_from_cam /= in_cam.z();
-  Eigen::Matrix<double, 3, 2> cam_from_plane;
-  cam_from_plane.col(0) = camera_.cam_from_world.rotation * chart.right_in_world;
-  cam_from_plane.col(1) = camera_.cam_from_world.rotation * chart.down_in_world;
-  sighting.px_from_unit = image_from_n * n_from_cam * cam_from_plane;
+  sighting.px_from_unit = image_from_n * n_from_plane;
+  return sighting;
+}
 
+double PreparedPhoto::Quality(const Sighting& sighting) const {
   // Resolution: the worse direction counts more, since its blur is what the eye sees.
   const double sum = sighting.px_from_unit.squaredNorm();
   const double det = std::abs(sighting.px_from_unit.determinant());
@@ -157,12 +179,12 @@ std::optional<Sighting> PreparedPhoto::Sight(const Eigen::Vector3d& point_in_wor
   const double small = large > 0 ? det / large : 0;
   const double resolution = std::sqrt(small * std::sqrt(det));  // small^(3/4) large^(1/4)
   const double border =
-      1e-3 + SmoothStep(border_margin_px_ - 1, border_margin_px_ + 4, sighting.border_px);
-  const double frame =
-      0.5 +
-      0.5 * SmoothStep(frame_margin_px_, frame_margin_px_ + 0.06 * camera_.width_px, frame_px);
-  sighting.quality = weight_ * resolution * border * frame;
-  return sighting;
+      1e-3 +
+      SmoothStep(border_margin_px_ - 1, border_margin_px_ + kTrustedFrom, sighting.border_px);
+  const double frame = 0.5 + 0.5 * SmoothStep(frame_margin_px_,
+                                              frame_margin_px_ + 0.06 * camera_.width_px,
+                                              sighting.frame_px);
+  return weight_ * resolution * border * frame;
 }
 
 }  // namespace groundglass

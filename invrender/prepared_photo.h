@@ -4,10 +4,12 @@
 
 #include "invrender/charts.h"
 #include "invrender/invrender.h"
-#include "invrender/photo_pyramid.h"
+#include "invrender/photo_cache.h"
+#include "invrender/sight_map.h"
 
 #include <Eigen/Dense>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,34 +20,54 @@ struct Sighting {
   Eigen::Vector2d image_px = Eigen::Vector2d::Zero();
   Eigen::Matrix2d px_from_unit = Eigen::Matrix2d::Zero();  // image px for one model unit along the
                                                            // chart's right and down
+  double frame_px = 0;                                     // distance to the frame's nearest side
   double border_px = 0;  // distance to the nearest pixel that shows something else
-  double quality = 0;    // larger is better; px for one model unit, lowered near borders
 };
 
-// A photograph made ready to be looked up: pixels, face mask, and how far each pixel is from what
-// must not be printed on its face. About 8 bytes a pixel.
+// A chart's plane as one camera has it, so that its points need no transformation of their own.
+struct ChartInCamera {
+  const Chart* chart = nullptr;
+  int chart_index = -1;
+  bool is_facing = false;  // the camera is on the chart's front
+  Eigen::Vector3d origin_in_cam;
+  Eigen::Vector3d right_in_cam;
+  Eigen::Vector3d down_in_cam;
+};
+
+// A photograph made ready to be looked up: its face mask, how far each pixel is from what must not
+// be printed on its face, and its pixels through a cache.
 class PreparedPhoto {
  public:
-  // Reads the image and the masks; throws Error if they do not fit the camera.
+  // Reads the image and the masks; throws Error if they do not fit the camera. `index` is the
+  // photograph's in the cache, which must outlive this, as the others.
   PreparedPhoto(const BakePhotograph& photograph,
+                int index,
                 const PolygonModel& model,
                 const Visibility& visibility,
                 const std::vector<int>& chart_of_face,
-                const BakeOptions& options);
+                const BakeOptions& options,
+                PhotoCache& cache);
 
-  // How the photograph shows a point of a face; nothing if it does not. Exact: near borders of
-  // the mask a ray decides.
-  std::optional<Sighting> Sight(const Eigen::Vector3d& point_in_world,
-                                const Chart& chart,
-                                int chart_index,
+  ChartInCamera View(const Chart& chart, int chart_index) const;
+
+  // How the photograph shows a point of a face, given in the chart's plane (Chart::PlanePoint,
+  // model's unit); nothing if it does not. Exact: near borders of the mask a ray decides.
+  std::optional<Sighting> Sight(const ChartInCamera& view,
+                                const Eigen::Vector2d& plane_point,
                                 int face) const;
 
-  Eigen::Array3f Sample(const Sighting& sighting, double footprint, int max_taps) const {
-    return pyramid_.Sample(sighting.image_px, sighting.px_from_unit * footprint, max_taps);
-  }
+  // Larger is better: px for one model unit, lowered near borders; 0 is worthless.
+  double Quality(const Sighting& sighting) const;
+
+  std::shared_ptr<const PhotoPyramid> Pixels() const { return cache_.Get(index_); }
+
   // Squared distance from the image's centre, 1 at the corners: vignetting's argument.
-  double RadiusSquared(const Eigen::Vector2d& image_px) const;
+  double RadiusSquared(const Eigen::Vector2d& image_px) const {
+    return (image_px - half_size_px_).squaredNorm() / half_size_px_.squaredNorm();
+  }
   bool MayTexture(int face) const { return allowed_.empty() || allowed_[face]; }
+  // Whether some pixel's centre shows the face; slivers may be seen without.
+  bool Shows(int face) const { return is_shown_[face] != 0; }
 
  private:
   // Painted masks are as coarse as pixels: a face goes half a pixel on beyond the centres of those
@@ -54,17 +76,19 @@ class PreparedPhoto {
 
   const Visibility& visibility_;
   const std::vector<int>& chart_of_face_;
+  PhotoCache& cache_;
+  int index_;
   Camera camera_;
   Eigen::Vector3d position_in_world_;
+  Eigen::Vector2d half_size_px_;
   double weight_ = 1;
   double frame_margin_px_ = 0;
   double border_margin_px_ = 0;
   double tolerance_ = 0;
   bool is_hand_painted_ = false;
   std::vector<char> allowed_;
-  PhotoPyramid pyramid_;
-  Image16 labels_;  // faces, from 1
-  Image8 border_;   // eighths of a pixel to what must not be printed; 0: the pixel itself is that
+  std::vector<char> is_shown_;
+  SightMap sight_map_;
 };
 
 }  // namespace groundglass

@@ -19,7 +19,6 @@ constexpr double kSeam = 0.15;
 // For each log unit that the two photographs differ there, up to kMostDifferent.
 constexpr double kSeamPerUnit = 4;
 constexpr double kMostDifferent = 1;
-constexpr int kRounds = 2;
 
 class SeamProblem {
  public:
@@ -47,7 +46,7 @@ class SeamProblem {
   }
 
   // One expansion: every cell keeps its photograph or takes `alpha`.
-  bool Expand(int alpha, std::vector<int>& labels) const {
+  void Expand(int alpha, std::vector<int>& labels) const {
     std::vector<int> node(cells_.NumCells(), -1);
     int num_nodes = 0;
     for (int cell = 0; cell < cells_.NumCells(); ++cell) {
@@ -55,7 +54,7 @@ class SeamProblem {
         node[cell] = num_nodes++;
       }
     }
-    if (num_nodes == 0) return false;
+    if (num_nodes == 0) return;
     cv::detail::GCGraph<double> graph(num_nodes + 2, 4 * num_nodes + 2);
     for (int i = 0; i < num_nodes + 2; ++i) graph.addVtx();
     graph.addEdges(num_nodes, num_nodes + 1, 0, 0);  // it insists on an edge
@@ -78,13 +77,10 @@ class SeamProblem {
       }
     }
     graph.maxFlow();
-    bool has_changed = false;
     for (int cell = 0; cell < cells_.NumCells(); ++cell) {
       if (node[cell] < 0 || graph.inSourceSegment(node[cell])) continue;
       labels[cell] = alpha;
-      has_changed = true;
     }
-    return has_changed;
   }
 
  private:
@@ -146,12 +142,9 @@ void SmoothSeams(const ChartCells& cells,
                  ChartChoice& choice) {
   if (cells.photos.size() < 2) return;
   const SeamProblem problem(cells, chart, colour, choice);
-  for (int round = 0; round < kRounds; ++round) {
-    bool has_changed = false;
-    for (size_t alpha = 0; alpha < cells.photos.size(); ++alpha) {
-      has_changed |= problem.Expand(static_cast<int>(alpha), choice.best);
-    }
-    if (!has_changed) break;
+  // One round: on real scenes a second changed nothing that shows.
+  for (size_t alpha = 0; alpha < cells.photos.size(); ++alpha) {
+    problem.Expand(static_cast<int>(alpha), choice.best);
   }
 }
 

@@ -44,12 +44,16 @@ void ChooseTexelSizes(const PolygonModel& model,
   const int room = options.max_page_texels - 2 * options.gutter_texels;
   tbb::parallel_for(size_t{0}, charts.size(), [&](size_t index) {
     Chart& chart = charts[index];
+    std::vector<ChartInCamera> views;
+    for (const PreparedPhoto& photo : photos) {
+      views.push_back(photo.View(chart, static_cast<int>(index)));
+    }
     std::vector<double> best_resolutions;
     for (const int face : chart.faces) {
       for (const Eigen::Vector3d& point : SpreadPoints(model, face)) {
         double best = 0;
-        for (const PreparedPhoto& photo : photos) {
-          const auto sighting = photo.Sight(point, chart, static_cast<int>(index), face);
+        for (size_t i = 0; i < photos.size(); ++i) {
+          const auto sighting = photos[i].Sight(views[i], chart.PlanePoint(point), face);
           if (!sighting) continue;
           best = std::max(best, std::sqrt(std::abs(sighting->px_from_unit.determinant())));
         }

@@ -3,12 +3,14 @@
 #include "invrender/border_distance.h"
 #include "invrender/invrender.h"
 #include "invrender/photo_pyramid.h"
+#include "invrender/sight_map.h"
 #include "scene/colmap_io.h"
 #include "scene/image_io.h"
 #include "scene/osu_io.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,6 +63,25 @@ TEST(ComputeBorderDistance, CountsPixelsToWhereAnotherSurfaceBegins) {
     const double expected = std::abs(x + 0.5 - 32);
     EXPECT_NEAR(*border.At(x, 24) / kBorderStepsPerPx, std::min(expected, 31.875), 0.2) << x;
   }
+}
+
+TEST(SightMap, AnswersAsThePicturesThatItWasMadeOf) {
+  Image16 labels(37, 21, 1);  // no multiple of its tiles
+  Image8 border(37, 21, 1, 60);
+  for (int y = 0; y < 21; ++y) {
+    for (int x = 0; x < 37; ++x) {
+      *labels.At(x, y) = static_cast<uint16_t>(x < 20 ? 3 : y < 11 ? 5 : 0);
+      if (x >= 18) *border.At(x, y) = static_cast<uint8_t>(x + y);
+    }
+  }
+  const SightMap map(labels, border, 50);
+  for (int y = 0; y < 21; ++y) {
+    for (int x = 0; x < 37; ++x) {
+      ASSERT_EQ(map.At(x, y).label, *labels.At(x, y));
+      ASSERT_EQ(map.At(x, y).border, std::min<int>(*border.At(x, y), 50));
+    }
+  }
+  EXPECT_THAT(map.ShownFaces(6), testing::ElementsAre(0, 0, 1, 0, 1, 0));
 }
 
 TEST(FindMount, FindsTheDarkRimAndLeavesDarkWindowsAlone) {

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/photo_cache.h"
+
+#include "scene/image_io.h"
+
+#include <tbb/task_arena.h>
+
+namespace groundglass {
+
+PhotoCache::PhotoCache(std::vector<std::filesystem::path> files, size_t max_bytes)
+    : max_bytes_(max_bytes) {
+  for (std::filesystem::path& file : files) {
+    entries_.push_back(std::make_unique<Entry>());
+    entries_.back()->file = std::move(file);
+  }
+}
+
+std::shared_ptr<const PhotoPyramid> PhotoCache::Get(int photo) {
+  Entry& entry = *entries_[photo];
+  const auto find = [&]() -> std::shared_ptr<const PhotoPyramid> {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (entry.pyramid) uses_.splice(uses_.begin(), uses_, entry.use);
+    return entry.pyramid;
+  };
+  if (auto pyramid = find()) return pyramid;
+  const std::lock_guard<std::mutex> decoding(entry.decoding);
+  if (auto pyramid = find()) return pyramid;
+  std::shared_ptr<const PhotoPyramid> pyramid;
+  // Isolated: this thread must not take up other work that waits for the same photograph.
+  tbb::this_task_arena::isolate(
+      [&] { pyramid = std::make_shared<const PhotoPyramid>(ReadSrgb8(entry.file)); });
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++num_decoded_;
+  num_bytes_ += pyramid->NumBytes();
+  while (num_bytes_ > max_bytes_ && !uses_.empty()) {
+    Entry& oldest = *entries_[uses_.back()];
+    num_bytes_ -= oldest.pyramid->NumBytes();
+    oldest.pyramid.reset();
+    uses_.pop_back();
+  }
+  uses_.push_front(photo);
+  entry.use = uses_.begin();
+  entry.pyramid = pyramid;
+  return pyramid;
+}
+
+size_t PhotoCache::num_bytes() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return num_bytes_;
+}
+
+long PhotoCache::num_decoded() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return num_decoded_;
+}
+
+}  // namespace groundglass

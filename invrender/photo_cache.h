@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "invrender/photo_pyramid.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace groundglass {
+
+// Decoded photographs, no more of them than fit into `max_bytes`; those that were not used for the
+// longest go first, and come back from their files when they are asked for. One that somebody
+// still holds stays in memory until it is let go. Safe to use from many threads.
+class PhotoCache {
+ public:
+  PhotoCache(std::vector<std::filesystem::path> files, size_t max_bytes);
+
+  // Throws Error for a file that cannot be read.
+  std::shared_ptr<const PhotoPyramid> Get(int photo);
+
+  size_t num_bytes() const;
+  long num_decoded() const;
+
+ private:
+  struct Entry {
+    std::filesystem::path file;
+    std::mutex decoding;
+    std::shared_ptr<const PhotoPyramid> pyramid;  // guarded by mutex_
+    std::list<int>::iterator use;                 // in uses_, if there is a pyramid
+  };
+
+  mutable std::mutex mutex_;
+  size_t max_bytes_;
+  size_t num_bytes_ = 0;
+  long num_decoded_ = 0;
+  std::vector<std::unique_ptr<Entry>> entries_;
+  std::list<int> uses_;  // latest first
+};
+
+}  // namespace groundglass

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/photo_cache.h"
+
+#include "scene/error.h"
+#include "scene/image_io.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+namespace groundglass {
+namespace {
+
+// Photographs of 64 x 48, each of one grey: 10, 20, 30 ...
+std::vector<std::filesystem::path> WriteGreys(const TemporaryFolder& folder, int count) {
+  std::vector<std::filesystem::path> files;
+  for (int i = 0; i < count; ++i) {
+    files.push_back(folder / ("s" + std::to_string(i) + ".png"));
+    WriteSrgb8(files.back(), Image8(64, 48, 3, static_cast<uint8_t>(10 * (i + 1))));
+  }
+  return files;
+}
+
+TEST(PhotoCache, HoldsNoMoreThanItMayAndForgetsTheOldest) {
+  const TemporaryFolder folder;
+  const std::vector<std::filesystem::path> files = WriteGreys(folder, 3);
+  const size_t one = PhotoCache(files, 1 << 20).Get(0)->NumBytes();
+  EXPECT_GT(one, 64u * 48 * 3);
+  EXPECT_LT(one, 64u * 48 * 3 * 3 / 2);
+  PhotoCache cache(files, 2 * one + 1);
+  for (const int photo : {0, 1, 0, 2, 0}) {
+    EXPECT_EQ(*cache.Get(photo)->Full().At(5, 5), 10 * (photo + 1));
+    EXPECT_LE(cache.num_bytes(), 2 * one);
+  }
+  EXPECT_EQ(cache.num_decoded(), 3);
+  cache.Get(1);  // had to make room for 2
+  EXPECT_EQ(cache.num_decoded(), 4);
+}
+
+TEST(PhotoCache, EvenWithoutRoomEveryThreadGetsItsPhotograph) {
+  const TemporaryFolder folder;
+  PhotoCache cache(WriteGreys(folder, 5), 0);
+  tbb::parallel_for(
+      0, 500, [&](int i) { ASSERT_EQ(*cache.Get(i % 5)->Full().At(0, 0), 10 * (i % 5 + 1)); });
+}
+
+TEST(PhotoCache, AMissingFileIsAnError) {
+  PhotoCache cache({"nowhere/s1.jpg"}, 1 << 20);
+  EXPECT_THAT(ThrownMessage([&] { cache.Get(0); }), testing::HasSubstr("s1.jpg"));
+}
+
+}  // namespace
+}  // namespace groundglass
