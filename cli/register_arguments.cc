@@ -54,8 +54,8 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_flag("--independent",
-                    arguments.is_independent,
-                    "each photograph by itself, as is done today without it too");
+                    arguments.options.independent,
+                    "each photograph by itself; else the accepted ones are refined together");
   const std::string by_hand = "Help by hand, photographs by name, with commas between";
   command->add_option("--only", arguments.only, "the photographs to register; others are left out")
       ->delimiter(',')
@@ -168,7 +168,7 @@ Manifest DescribeInputs(const std::string& command,
   manifest.options["digital"] = prior.digital ? "yes" : "no";
   manifest.options["lock"] = JoinWithCommas(prior.lock);
   manifest.options["free"] = JoinWithCommas(prior.free);
-  manifest.options["independent"] = "yes";  // whether asked for or not
+  manifest.options["independent"] = arguments.options.independent ? "yes" : "no";
   manifest.options["only"] = JoinWithCommas(arguments.only);
   manifest.options["accept"] = JoinWithCommas(arguments.options.overrule.accept);
   manifest.options["reject"] = JoinWithCommas(arguments.options.overrule.reject);

@@ -23,7 +23,6 @@ struct RegisterArguments {
   std::optional<std::filesystem::path> model_file;
   std::optional<std::filesystem::path> lens_file;
   std::optional<std::filesystem::path> points_file;
-  bool is_independent = false;    // each photograph by itself: so far the only way there is
   std::vector<std::string> only;  // photographs by name; empty: all
   RegisterOptions options;
 };

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/edge_alignment_cost.h"
 
+#include "register/edge_whitening.h"
 #include "register/parameter_projection.h"
 
 #include <cmath>
@@ -41,36 +42,12 @@ bool EdgeAlignmentCost::Evaluate(double const* const* parameters,
     }
   }
 
-  // Whiten each edge's run of samples: (I + A A^T)^(-1/2) = I - A G A^T, where G shares its
-  // eigenvectors with A^T A and has eigenvalues (1 - 1 / sqrt(1 + l)) / l.
   for (Eigen::Index start = 0; start < count;) {
     Eigen::Index end = start;
-    Eigen::Matrix2d squared = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d times_r = Eigen::Vector2d::Zero();
-    Eigen::Matrix<double, 2, kNumCameraParameters> times_jacobian;
-    times_jacobian.setZero();
-    const auto a = [&](Eigen::Index i) -> Eigen::Vector2d {
-      return std::sqrt(samples_[i].precision) * samples_[i].bias_px;
-    };
-    for (; end < count && samples_[end].edge == samples_[start].edge; ++end) {
-      squared += a(end) * a(end).transpose();
-      times_r += a(end) * r[end];
-      if (with_jacobian) times_jacobian += a(end) * by_whitened.row(end);
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(squared);
-    Eigen::Vector2d shrink = Eigen::Vector2d::Zero();
-    for (int k = 0; k < 2; ++k) {
-      const double l = eigen.eigenvalues()[k];
-      if (l > 1e-12) shrink[k] = (1 - 1 / std::sqrt(1 + l)) / l;
-    }
-    const Eigen::Matrix2d g =
-        eigen.eigenvectors() * shrink.asDiagonal() * eigen.eigenvectors().transpose();
-    const Eigen::Vector2d g_times_r = g * times_r;
-    const Eigen::Matrix<double, 2, kNumCameraParameters> g_times_jacobian = g * times_jacobian;
-    for (Eigen::Index i = start; i < end; ++i) {
-      r[i] -= a(i).dot(g_times_r);
-      if (with_jacobian) by_whitened.row(i) -= a(i).transpose() * g_times_jacobian;
-    }
+    while (end < count && samples_[end].edge == samples_[start].edge) ++end;
+    const EdgeWhitening whitening({&samples_[start], static_cast<size_t>(end - start)});
+    whitening.Apply(r.segment(start, end - start));
+    if (with_jacobian) whitening.Apply(by_whitened.middleRows(start, end - start));
     start = end;
   }
   return true;

@@ -2,13 +2,18 @@
 // Part of Groundglass.
 #include "register/edge_samples.h"
 
+#include "register/edge_coarseness.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace groundglass {
 
 EdgeModel::EdgeModel(const PolygonModel& model_)
-    : model(model_), edges(FindModelEdges(model_)), visibility(model_) {}
+    : model(model_),
+      edges(FindModelEdges(model_)),
+      coarseness(FindEdgeCoarseness(model_, edges)),
+      visibility(model_) {}
 
 std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
                                            const Camera& camera,
@@ -37,7 +42,12 @@ std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
       const Eigen::Vector3d point =
           span.start_in_world + t * (span.end_in_world - span.start_in_world);
       const double along = 2 * (point - edge.start_in_world).norm() / edge_length - 1;
-      samples.push_back({point, direction, span.edge, along, length_px / count});
+      samples.push_back({point,
+                         direction,
+                         span.edge,
+                         along,
+                         length_px / count,
+                         edge_model.coarseness[span.edge]});
     }
   }
   return samples;

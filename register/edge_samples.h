@@ -19,6 +19,8 @@ struct EdgeModel {
 
   const PolygonModel& model;
   std::vector<ModelEdge> edges;
+  // For each edge (FindEdgeCoarseness).
+  std::vector<double> coarseness;
   Visibility visibility;
 };
 
@@ -29,6 +31,7 @@ struct EdgeSample {
   int edge = -1;                                                  // in EdgeModel::edges
   double along = 0;       // where on the edge: -1 at its start, 1 at its end
   double spacing_px = 0;  // the length of edge it stands for
+  double coarseness = 0;  // of its edge, model's unit (EdgeModel)
 };
 
 // Samples every spacing_px along the edges that the camera sees; none within 3 px of the frame's

@@ -3,7 +3,7 @@
 #include "register/pointed_prior.h"
 
 #include "register/control_point_cost.h"
-#include "register/whitened_prior_cost.h"
+#include "register/standard_normal_cost.h"
 
 #include <ceres/ceres.h>
 
@@ -42,7 +42,7 @@ PointedPrior NarrowByPoints(const std::vector<ControlPoint>& points,
   ceres::Problem::Options problem_options;
   problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ControlPointCost pointing(points, prior, measured.k2, width_px, height_px);
-  WhitenedPriorCost whitened_prior;
+  StandardNormalCost<kNumCameraParameters> whitened_prior;
   CameraParameters whitened = CameraParameters::Zero();
   ceres::Problem problem(problem_options);
   problem.AddResidualBlock(&pointing, nullptr, whitened.data());

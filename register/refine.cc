@@ -5,31 +5,25 @@
 #include "register/control_point_cost.h"
 #include "register/edge_alignment_cost.h"
 #include "register/shared_bias.h"
-#include "register/whitened_prior_cost.h"
+#include "register/standard_normal_cost.h"
+#include "register/weighted_median.h"
 
 #include <ceres/ceres.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace groundglass {
 namespace {
-
-double NormalDensity(double x, double sigma) {
-  return std::exp(-0.5 * x * x / (sigma * sigma)) / (sigma * std::sqrt(2 * std::numbers::pi));
-}
 
 // How ranges and widths stand at one step of the annealing.
 struct Annealing {
   double range_sigmas;  // search range, as a factor of the prior's 3 sigma along the normal
   double noise_px;      // spread of a right match at the end
-  bool is_final;
 };
 
-// Finds each sample's candidates and turns them into one offset with a precision: the mixture's
-// expectation, weighted by how likely any of them is right.
-std::vector<AlignedSample> MatchSamples(const std::vector<EdgeSample>& samples,
+// Finds each sample's candidates and turns them into one offset with a precision.
+std::vector<AlignedSample> AlignSamples(const std::vector<EdgeSample>& samples,
                                         const EdgeEvidence& evidence,
                                         const CameraPrior& prior,
                                         const ParameterProjection& projection,
@@ -38,46 +32,18 @@ std::vector<AlignedSample> MatchSamples(const std::vector<EdgeSample>& samples,
                                         const RefineOptions& options) {
   std::vector<AlignedSample> aligned;
   aligned.reserve(samples.size());
-  const std::vector<ProjectedSample> projected = ProjectSamples(samples, projection);
-  for (size_t i = 0; i < samples.size(); ++i) {
-    if (!projected[i].is_valid) continue;
-    const double prior_px = (projected[i].jacobian * prior.root).norm();
-    const double range_px = std::max(options.final_range_px, 3 * annealing.range_sigmas * prior_px);
-    const double width_px = std::max(annealing.noise_px, range_px / 3);
-    const std::vector<EdgeCandidate> candidates = evidence.FindCandidates(projected[i].image_px,
-                                                                          projected[i].normal,
-                                                                          range_px,
-                                                                          options.max_candidates,
-                                                                          options.gate_deg);
-    if (candidates.empty()) continue;
-    double strength_sum = 0;
-    for (const EdgeCandidate& candidate : candidates) {
-      strength_sum += std::abs(candidate.strength);
+  for (const CandidateSample& found : FindCandidateSamples(samples,
+                                                           evidence,
+                                                           prior,
+                                                           projection,
+                                                           annealing.range_sigmas,
+                                                           options.matching.final_range_px,
+                                                           options.matching)) {
+    const SoftMatch match =
+        MatchCandidates(found, 0, found.range_px, annealing.noise_px, options.matching);
+    if (match.precision > 0) {
+      aligned.push_back(MakeAlignedSample(found, match, units_per_metre, options.bias));
     }
-    double likelihood = options.outlier_share / (2 * range_px);
-    double weight_sum = 0;
-    double offset_sum = 0;
-    for (const EdgeCandidate& candidate : candidates) {
-      const double weight = (1 - options.outlier_share) * std::abs(candidate.strength) /
-                            strength_sum * NormalDensity(candidate.offset_px, width_px);
-      likelihood += weight;
-      weight_sum += weight;
-      offset_sum += weight * candidate.offset_px;
-    }
-    if (!(weight_sum > 1e-3 * likelihood)) continue;
-    AlignedSample& sample = aligned.emplace_back();
-    sample.point_in_world = samples[i].point_in_world;
-    sample.edge = samples[i].edge;
-    sample.origin_px = projected[i].image_px;
-    sample.normal = projected[i].normal;
-    sample.offset_px = offset_sum / weight_sum;
-    const double votes = std::min(1.0, samples[i].spacing_px / options.vote_length_px);
-    sample.precision = weight_sum / likelihood * votes / (width_px * width_px);
-    const double px_per_metre = units_per_metre * projected[i].px_per_unit;
-    sample.bias_px = {options.edge_offset_m * px_per_metre,
-                      options.edge_turn_m * px_per_metre * samples[i].along};
-    sample.shared_bias_px = options.shared_offset_m * px_per_metre;
-    sample.is_upright = std::abs(samples[i].direction_in_world.z()) > 0.7;
   }
   return aligned;
 }
@@ -91,24 +57,15 @@ double EstimateNoise(const std::vector<AlignedSample>& aligned,
                      int height_px) {
   const ParameterProjection projection(
       prior.mean + prior.root * whitened, measured.k2, width_px, height_px);
-  std::vector<std::pair<double, double>> residuals;
-  double total = 0;
+  std::vector<WeightedValue> residuals;
   for (const AlignedSample& sample : aligned) {
     const auto projected = projection.Project(sample.point_in_world);
     if (!projected) continue;
-    residuals.emplace_back(
-        std::abs(sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px),
-        sample.precision);
-    total += sample.precision;
+    residuals.push_back(
+        {std::abs(sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px),
+         sample.precision});
   }
-  if (residuals.empty()) return 1;
-  std::sort(residuals.begin(), residuals.end());
-  double below = 0;
-  for (const auto& [residual, precision] : residuals) {
-    below += precision;
-    if (below >= total / 2) return 1.4826 * residual;
-  }
-  return 1;
+  return 1.4826 * WeightedMedian(std::move(residuals), 1);
 }
 
 // One robust step: correspondences held, Ceres solves for the whitened parameters.
@@ -125,7 +82,7 @@ void Solve(const std::vector<AlignedSample>& aligned,
   problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   EdgeAlignmentCost alignment(aligned, prior, measured.k2, width_px, height_px);
   ControlPointCost pointing(points, prior, measured.k2, width_px, height_px);
-  WhitenedPriorCost whitened_prior;
+  StandardNormalCost<kNumCameraParameters> whitened_prior;
   ceres::Problem problem(problem_options);
   problem.AddResidualBlock(&alignment, nullptr, whitened.data());
   problem.AddResidualBlock(&whitened_prior, nullptr, whitened.data());
@@ -189,12 +146,12 @@ Refinement RefineFrom(const CameraParameters& start,
     }
   }
 
-  Annealing annealing{options.start_sigmas, 1, false};
+  Annealing annealing{options.start_sigmas, 1};
   std::vector<AlignedSample> aligned;
   const auto match_and_solve = [&](int max_iterations, CameraCovariance* covariance) {
     const ParameterProjection projection(
         prior.mean + prior.root * refinement.whitened, measured.k2, width_px, height_px);
-    aligned = MatchSamples(
+    aligned = AlignSamples(
         refinement.samples, evidence, prior, projection, units_per_metre, annealing, options);
     if (aligned.size() < 8) return false;
     Solve(aligned,
@@ -209,7 +166,7 @@ Refinement RefineFrom(const CameraParameters& start,
     return true;
   };
 
-  while (3 * annealing.range_sigmas * widest_prior_px > options.final_range_px) {
+  while (3 * annealing.range_sigmas * widest_prior_px > options.matching.final_range_px) {
     if (!match_and_solve(3, nullptr)) return refinement;
     annealing.range_sigmas *= options.shrink;
   }
@@ -224,7 +181,7 @@ Refinement RefineFrom(const CameraParameters& start,
     annealing.noise_px = std::clamp(
         EstimateNoise(aligned, prior, refinement.whitened, measured, width_px, height_px),
         options.min_noise_px,
-        options.final_range_px / 2);
+        options.matching.final_range_px / 2);
   }
   refinement.covariance += SharedBiasCovariance(
       aligned, prior, measured.k2, width_px, height_px, refinement.whitened, refinement.covariance);

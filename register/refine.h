@@ -2,9 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
+#include "register/aligned_sample.h"
 #include "register/camera_prior.h"
 #include "register/control_points.h"
 #include "register/edge_evidence.h"
+#include "register/edge_matches.h"
 #include "register/edge_samples.h"
 
 #include <vector>
@@ -13,25 +15,13 @@ namespace groundglass {
 
 struct RefineOptions {
   // The search range starts at this share of the prior's 3 sigma and shrinks by this factor a
-  // step, down to final_range_px.
+  // step, down to matching.final_range_px.
   double start_sigmas = 0.25;
   double shrink = 0.6;
-  double final_range_px = 2.0;
-  // Edge samples: how dense, and how far apart they must be to count as independent.
+  // How dense the edges are sampled.
   double spacing_px = 4;
-  double vote_length_px = 20;
-  // Candidates for a sample, and how far their gradient may turn from the sample's normal.
-  int max_candidates = 8;
-  double gate_deg = 25;
-  // Share of samples whose edge the photograph does not show.
-  double outlier_share = 0.15;
-  // One sigma of how far a model edge may lie from the building's as a whole, and of how far its
-  // ends may lie apart from that, metres.
-  double edge_offset_m = 0.037;
-  double edge_turn_m = 0.037;
-  // One sigma of what all edges may lie off together (reveals, joints, frames), metres. Widens the
-  // covariance and leaves the solution alone.
-  double shared_offset_m = 0.02;
+  MatchOptions matching;
+  EdgeBias bias;
   // The least noise of an edge's position that is believed, px.
   double min_noise_px = 0.3;
 };

@@ -4,6 +4,7 @@
 
 #include "register/pointed_prior.h"
 #include "register/verdict.h"
+#include "register/write_solution.h"
 #include "scene/error.h"
 
 #include <opencv2/imgproc.hpp>
@@ -23,20 +24,11 @@ Image8 Resized(const Image8& image, int width, int height, int interpolation) {
   return resized;
 }
 
-// Mean distance between the edge samples as two cameras project them, px.
-double MeanDisplacement(const std::vector<EdgeSample>& samples,
-                        const ParameterProjection& one,
-                        const ParameterProjection& other) {
-  double sum = 0;
-  int count = 0;
-  for (const EdgeSample& sample : samples) {
-    const auto a = one.Project(sample.point_in_world);
-    const auto b = other.Project(sample.point_in_world);
-    if (!a || !b) continue;
-    sum += (a->image_px - b->image_px).norm();
-    ++count;
-  }
-  return count ? sum / count : 0;
+std::vector<Eigen::Vector3d> PointsOf(const std::vector<EdgeSample>& samples) {
+  std::vector<Eigen::Vector3d> points_in_world;
+  points_in_world.reserve(samples.size());
+  for (const EdgeSample& sample : samples) points_in_world.push_back(sample.point_in_world);
+  return points_in_world;
 }
 
 // The photograph's own control points, in pixels of a picture of another size.
@@ -64,15 +56,16 @@ void RegisterOptions::Check() const {
   }
 }
 
-Registration RegisterPhotograph(const std::string& name,
-                                const Image8& grey8,
-                                const Image8& ignore,
-                                const ViewTag& measured,
-                                const std::optional<Lens>& lens,
-                                const EdgeModel& edge_model,
-                                const RegisterOptions& options) {
+PhotographAlignment AlignPhotograph(const std::string& name,
+                                    const Image8& grey8,
+                                    const Image8& ignore,
+                                    const ViewTag& measured,
+                                    const std::optional<Lens>& lens,
+                                    const EdgeModel& edge_model,
+                                    const RegisterOptions& options) {
   options.Check();
-  Registration registration;
+  PhotographAlignment alignment;
+  Registration& registration = alignment.registration;
   registration.name = name;
   registration.width_px = grey8.width;
   registration.height_px = grey8.height;
@@ -103,7 +96,7 @@ Registration RegisterPhotograph(const std::string& name,
     registration.reasons.push_back("the measured tag sees almost nothing of the model");
     registration.covariance = prior.root * prior.root.transpose();
     OverruleVerdict(options.overrule, registration);
-    return registration;
+    return alignment;
   }
   std::vector<Hypothesis> hypotheses = {{}};  // the tag itself
   if (options.hypotheses.max_starts > 0) {
@@ -142,38 +135,62 @@ Registration RegisterPhotograph(const std::string& name,
   const Solution& best = solutions.front();
   const ParameterProjection best_projection(
       prior.mean + prior.root * best.refinement.whitened, measured.k2, width_px, height_px);
+  const std::vector<Eigen::Vector3d> best_points = PointsOf(best.refinement.samples);
   const Solution* rival = nullptr;
   double rival_distance_px = 0;
   for (const Solution& solution : solutions) {
     const ParameterProjection projection(
         prior.mean + prior.root * solution.refinement.whitened, measured.k2, width_px, height_px);
-    rival_distance_px = MeanDisplacement(best.refinement.samples, best_projection, projection);
+    rival_distance_px = MeanDisplacementPx(best_points, best_projection, projection);
     if (rival_distance_px > options.rival_distance_px * width_px / 1200.0) {
       rival = &solution;
       break;
     }
   }
 
-  const CameraParameters parameters = prior.mean + prior.root * best.refinement.whitened;
-  registration.covariance = prior.root * best.refinement.covariance * prior.root.transpose();
-  registration.sigmas = registration.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-  registration.num_samples = best.refinement.num_matched;
-  registration.rms_px = best.refinement.noise_px / scale;
   registration.score_nats = best.score.nats;
   registration.margin_nats = rival ? best.TotalScore() - rival->TotalScore() : 1e6;
-  registration.moved_px =
-      MeanDisplacement(best.refinement.samples,
-                       ParameterProjection(prior.mean, measured.k2, width_px, height_px),
-                       best_projection) /
-      scale;
-  JudgeRegistration(best, rival, rival_distance_px / scale, prior, options, registration);
+  WriteSolution({best.refinement.whitened,
+                 best.refinement.covariance,
+                 best.refinement.noise_px,
+                 best.refinement.num_matched},
+                prior,
+                best_points,
+                width_px,
+                height_px,
+                registration);
+  JudgeFit(best, rival, rival_distance_px / scale, options, registration);
+  JudgeChange(best.refinement.whitened, prior, options, registration);
   JudgeControlPoints(
       points, best_projection, scale, options.max_control_point_sigmas, registration);
-  OverruleVerdict(options.overrule, registration);
-  if (registration.verdict != Verdict::kRejected) {
-    registration.corrected = TagFromParameters(parameters, measured);
+  if (registration.verdict == Verdict::kAccepted && points.empty()) {
+    alignment.aligned = {prior,
+                         measured,
+                         width_px,
+                         height_px,
+                         FindCandidateSamples(best.refinement.samples,
+                                              evidence,
+                                              prior,
+                                              best_projection,
+                                              0,
+                                              1.5 * options.joint.start_range_px,
+                                              options.joint.matching),
+                         best.refinement.whitened,
+                         best.refinement.noise_px};
   }
-  return registration;
+  OverruleVerdict(options.overrule, registration);
+  if (registration.verdict == Verdict::kRejected) registration.corrected = measured;
+  return alignment;
+}
+
+Registration RegisterPhotograph(const std::string& name,
+                                const Image8& grey8,
+                                const Image8& ignore,
+                                const ViewTag& measured,
+                                const std::optional<Lens>& lens,
+                                const EdgeModel& edge_model,
+                                const RegisterOptions& options) {
+  return AlignPhotograph(name, grey8, ignore, measured, lens, edge_model, options).registration;
 }
 
 }  // namespace groundglass

@@ -6,6 +6,7 @@
 #include "register/control_points.h"
 #include "register/edge_samples.h"
 #include "register/hypotheses.h"
+#include "register/joint_refinement.h"
 #include "register/overrule.h"
 #include "register/refine.h"
 #include "register/score.h"
@@ -24,6 +25,9 @@ struct RegisterOptions {
   HypothesisOptions hypotheses;
   RefineOptions refine;
   ScoreOptions score;
+  JointOptions joint;
+  // Each photograph by itself; else those that are accepted are refined together.
+  bool independent = false;
 
   // Photographs wider than this are registered at this width: edges of buildings are no sharper.
   int max_width_px = 1600;
@@ -52,9 +56,24 @@ struct RegisterOptions {
   void Check() const;  // throws Error naming the first field out of range
 };
 
+// A photograph that was registered by itself, with what refining it together with others needs.
+struct PhotographAlignment {
+  Registration registration;
+  AlignedPhotograph aligned;  // empty unless the verdict is `accepted`
+};
+
 // Corrects one photograph's tag against the model's edges.
 // grey8: the photograph, 1 channel. ignore: same size, non-zero where it is no evidence; may be
 // empty. Not converging is a result (verdict, reasons), not an error.
+PhotographAlignment AlignPhotograph(const std::string& name,
+                                    const Image8& grey8,
+                                    const Image8& ignore,
+                                    const ViewTag& measured,
+                                    const std::optional<Lens>& lens,
+                                    const EdgeModel& edge_model,
+                                    const RegisterOptions& options);
+
+// AlignPhotograph for a photograph that stays alone.
 Registration RegisterPhotograph(const std::string& name,
                                 const Image8& grey8,
                                 const Image8& ignore,

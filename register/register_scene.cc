@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/register_scene.h"
 
+#include "register/refine_accepted.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
 
@@ -36,26 +37,32 @@ std::vector<Registration> RegisterScene(const Scene& scene,
   options.Check();
   const EdgeModel edge_model(scene.model);
   const int total = static_cast<int>(scene.photographs.size());
-  std::vector<Registration> registrations(scene.photographs.size());
+  std::vector<PhotographAlignment> alignments(scene.photographs.size());
   std::mutex mutex;
   int done = 0;
   tbb::parallel_for(0, total, [&](int index) {
     const Photograph& photograph = scene.photographs[index];
-    registrations[index] = RegisterPhotograph(photograph.name,
-                                              ReadGrey8(photograph.image_file),
-                                              ReadIgnoreMask(photograph),
-                                              photograph.tag,
-                                              lens,
-                                              edge_model,
-                                              options);
+    alignments[index] = AlignPhotograph(photograph.name,
+                                        ReadGrey8(photograph.image_file),
+                                        ReadIgnoreMask(photograph),
+                                        photograph.tag,
+                                        lens,
+                                        edge_model,
+                                        options);
     const std::lock_guard lock(mutex);
     ++done;
     if (progress) {
-      progress(done,
-               total,
-               photograph.name + " " + std::string(VerdictName(registrations[index].verdict)));
+      progress(
+          done,
+          total,
+          photograph.name + " " + std::string(VerdictName(alignments[index].registration.verdict)));
     }
   });
+  if (!options.independent) RefineAccepted(edge_model, options, alignments);
+  std::vector<Registration> registrations;
+  for (PhotographAlignment& alignment : alignments) {
+    registrations.push_back(std::move(alignment.registration));
+  }
   return registrations;
 }
 

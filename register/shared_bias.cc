@@ -2,9 +2,31 @@
 // Part of Groundglass.
 #include "register/shared_bias.h"
 
+#include "register/edge_whitening.h"
+
 #include <cmath>
 
 namespace groundglass {
+
+Eigen::Matrix<double, Eigen::Dynamic, kNumSharedPushes> WhitenedSharedPushes(
+    std::span<const AlignedSample> samples, int width_px, int height_px) {
+  Eigen::Matrix<double, Eigen::Dynamic, kNumSharedPushes> pushes(
+      static_cast<Eigen::Index>(samples.size()), kNumSharedPushes);
+  pushes.setZero();
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const AlignedSample& sample = samples[i];
+    const double along_axis = sample.is_upright ? sample.normal.x() : sample.normal.y();
+    const double from_middle = sample.is_upright ? sample.origin_px.x() - width_px / 2.0
+                                                 : sample.origin_px.y() - height_px / 2.0;
+    const double push =
+        -std::sqrt(sample.precision) * std::copysign(sample.shared_bias_px, along_axis);
+    const Eigen::Index first = sample.is_upright ? 0 : 2;
+    pushes(static_cast<Eigen::Index>(i), first) = push;
+    pushes(static_cast<Eigen::Index>(i), first + 1) = std::copysign(push, push * from_middle);
+  }
+  EdgeWhitening(samples).Apply(pushes);
+  return pushes;
+}
 
 CameraCovariance SharedBiasCovariance(const std::vector<AlignedSample>& samples,
                                       const CameraPrior& prior,
@@ -19,33 +41,22 @@ CameraCovariance SharedBiasCovariance(const std::vector<AlignedSample>& samples,
   Eigen::VectorXd residuals(count);
   Jacobian jacobian(count, kNumCameraParameters);
   double* jacobians[] = {jacobian.data()};
-  CameraCovariance added = CameraCovariance::Zero();
   if (!EdgeAlignmentCost(samples, prior, k2, width_px, height_px)
            .Evaluate(&block, residuals.data(), jacobians)) {
-    return added;
+    return CameraCovariance::Zero();
   }
-  for (const bool upright : {true, false}) {
-    for (const bool spreading : {false, true}) {
-      std::vector<AlignedSample> pushed = samples;
-      for (AlignedSample& sample : pushed) {
-        if (sample.is_upright != upright) continue;
-        const double along_axis = upright ? sample.normal.x() : sample.normal.y();
-        const double from_middle = upright ? sample.origin_px.x() - width_px / 2.0
-                                           : sample.origin_px.y() - height_px / 2.0;
-        double push_px = std::copysign(sample.shared_bias_px, along_axis);
-        if (spreading) push_px = std::copysign(push_px, push_px * from_middle);
-        sample.offset_px += push_px;
-      }
-      Eigen::VectorXd pushed_residuals(count);
-      EdgeAlignmentCost(pushed, prior, k2, width_px, height_px)
-          .Evaluate(&block, pushed_residuals.data(), nullptr);
-      // One Gauss-Newton step: how far the solution follows.
-      const CameraParameters moved =
-          covariance * (jacobian.transpose() * (pushed_residuals - residuals));
-      added += moved * moved.transpose();
-    }
+  Eigen::Matrix<double, Eigen::Dynamic, kNumSharedPushes> pushes(count, kNumSharedPushes);
+  for (size_t start = 0; start < samples.size();) {
+    size_t end = start;
+    while (end < samples.size() && samples[end].edge == samples[start].edge) ++end;
+    pushes.middleRows(static_cast<Eigen::Index>(start), static_cast<Eigen::Index>(end - start)) =
+        WhitenedSharedPushes({&samples[start], end - start}, width_px, height_px);
+    start = end;
   }
-  return added;
+  // One Gauss-Newton step each: how far the solution follows.
+  const Eigen::Matrix<double, kNumCameraParameters, kNumSharedPushes> moved =
+      covariance * (jacobian.transpose() * pushes);
+  return moved * moved.transpose();
 }
 
 }  // namespace groundglass

@@ -4,15 +4,21 @@
 
 #include "register/edge_alignment_cost.h"
 
+#include <span>
 #include <vector>
 
 namespace groundglass {
 
+// Ways in which all edges may lie off together, one sigma each as the samples' shared_bias_px say:
+// upright edges all to the right, or all away from the picture's middle; the others all down, or
+// all away from the middle. How each changes the whitened residuals of samples of ONE edge.
+constexpr int kNumSharedPushes = 4;
+Eigen::Matrix<double, Eigen::Dynamic, kNumSharedPushes> WhitenedSharedPushes(
+    std::span<const AlignedSample> samples, int width_px, int height_px);
+
 // What the building's own details add to a solution's uncertainty when they push all edges the same
 // way: every window has the same reveal, every corner the same joint on its sunny side. Such errors
 // do not average out over many edges, so they are no part of the solution's own covariance.
-// Four of them, one sigma each as the samples' shared_bias_px say: upright edges all to the right,
-// or all away from the picture's middle; the others all down, or all away from the middle.
 // covariance: of the whitened parameters at the solution. Returns what to add to it.
 CameraCovariance SharedBiasCovariance(const std::vector<AlignedSample>& samples,
                                       const CameraPrior& prior,

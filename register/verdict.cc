@@ -16,66 +16,79 @@ std::string Format(const char* format, Args... args) {
   return text;
 }
 
+void LowerTo(Verdict verdict, const std::string& reason, Registration& registration) {
+  registration.verdict = std::max(registration.verdict, verdict);
+  registration.reasons.push_back(reason);
+}
+
 }  // namespace
 
-void JudgeRegistration(const Solution& best,
-                       const Solution* rival,
-                       double rival_distance_px,
-                       const CameraPrior& prior,
-                       const RegisterOptions& options,
-                       Registration& registration) {
-  const CameraParameters change = prior.root * best.refinement.whitened;
+void JudgeFit(const Solution& best,
+              const Solution* rival,
+              double rival_distance_px,
+              const RegisterOptions& options,
+              Registration& registration) {
+  registration.verdict = Verdict::kAccepted;
+  if (best.score.nats <= 0) {
+    LowerTo(Verdict::kRejected,
+            Format("the model's edges meet the photograph's no better than by chance "
+                   "(score %.0f nats)",
+                   best.score.nats),
+            registration);
+  }
+  const double nats_per_vote = best.score.nats / std::max(1.0, best.score.votes);
+  if (best.score.nats > 0 && nats_per_vote < options.min_nats_per_vote) {
+    LowerTo(
+        Verdict::kReview,
+        Format("few of the model's edges are in the photograph (%.2f nats a vote)", nats_per_vote),
+        registration);
+  }
+  const double min_margin_nats =
+      std::max(options.min_margin_nats, options.min_margin_per_vote * best.score.votes);
+  if (rival && registration.margin_nats < min_margin_nats) {
+    LowerTo(Verdict::kReview,
+            Format("a rival %.1f px away fits almost as well (margin %.0f nats)",
+                   rival_distance_px,
+                   registration.margin_nats),
+            registration);
+  }
+  if (!best.refinement.has_converged) {
+    LowerTo(Verdict::kReview, "refinement did not settle", registration);
+  }
+}
+
+void JudgeChange(const CameraParameters& whitened,
+                 const CameraPrior& prior,
+                 const RegisterOptions& options,
+                 Registration& registration) {
+  registration.undetermined.clear();
   for (int i = 0; i < kNumCameraParameters; ++i) {
     // Less than a tenth narrower than before: this photograph says nothing about it.
     if (prior.sigmas[i] > 0 && registration.sigmas[i] > 0.9 * prior.sigmas[i]) {
       registration.undetermined.emplace_back(kCameraParameterNames[i]);
     }
   }
-
-  registration.verdict = Verdict::kAccepted;
-  const auto lower_to = [&](Verdict verdict, const std::string& reason) {
-    if (verdict > registration.verdict) registration.verdict = verdict;
-    registration.reasons.push_back(reason);
-  };
-  if (best.score.nats <= 0) {
-    lower_to(Verdict::kRejected,
-             Format("the model's edges meet the photograph's no better than by chance "
-                    "(score %.0f nats)",
-                    best.score.nats));
-  }
-  const double nats_per_vote = best.score.nats / std::max(1.0, best.score.votes);
-  if (best.score.nats > 0 && nats_per_vote < options.min_nats_per_vote) {
-    lower_to(
-        Verdict::kReview,
-        Format("few of the model's edges are in the photograph (%.2f nats a vote)", nats_per_vote));
-  }
-  const double chi_squared = best.refinement.whitened.squaredNorm();
+  const double chi_squared = whitened.squaredNorm();
   if (chi_squared > options.max_prior_chi_squared) {
-    lower_to(Verdict::kReview,
-             Format("the change as a whole is larger than the tag's sigmas allow "
-                    "(chi-squared %.0f of 11)",
-                    chi_squared));
+    LowerTo(Verdict::kReview,
+            Format("the change as a whole is larger than the tag's sigmas allow "
+                   "(chi-squared %.0f of 11)",
+                   chi_squared),
+            registration);
   }
+  const CameraParameters change = prior.root * whitened;
   for (int i = 0; i < kNumCameraParameters; ++i) {
     if (!(prior.sigmas[i] > 0)) continue;
     const double sigmas = std::abs(change[i]) / prior.sigmas[i];
     if (sigmas > options.max_prior_sigmas) {
-      lower_to(Verdict::kReview,
-               Format("%s would move by %.3g, %.1f of its standard deviations",
-                      kCameraParameterNames[i].data(),
-                      change[i],
-                      sigmas));
+      LowerTo(Verdict::kReview,
+              Format("%s would move by %.3g, %.1f of its standard deviations",
+                     kCameraParameterNames[i].data(),
+                     change[i],
+                     sigmas),
+              registration);
     }
   }
-  const double min_margin_nats =
-      std::max(options.min_margin_nats, options.min_margin_per_vote * best.score.votes);
-  if (rival && registration.margin_nats < min_margin_nats) {
-    lower_to(Verdict::kReview,
-             Format("a rival %.1f px away fits almost as well (margin %.0f nats)",
-                    rival_distance_px,
-                    registration.margin_nats));
-  }
-  if (!best.refinement.has_converged) lower_to(Verdict::kReview, "refinement did not settle");
 }
 
 }  // namespace groundglass

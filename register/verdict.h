@@ -21,13 +21,19 @@ struct Solution {
   }
 };
 
-// Writes verdict, reasons and the undetermined parameters into a registration whose figures are
-// filled in. rival: the best solution elsewhere, if any, and how far away it lies.
-void JudgeRegistration(const Solution& best,
-                       const Solution* rival,
-                       double rival_distance_px,
-                       const CameraPrior& prior,
-                       const RegisterOptions& options,
-                       Registration& registration);
+// Writes verdict and reasons into a registration whose figures are filled in, except what
+// JudgeChange writes. rival: the best solution elsewhere, if any, and how far away it lies.
+void JudgeFit(const Solution& best,
+              const Solution* rival,
+              double rival_distance_px,
+              const RegisterOptions& options,
+              Registration& registration);
+
+// Adds what the change from prior to solution says: the undetermined parameters, and `review` where
+// the change is larger than the tag's sigmas allow. whitened: the solution.
+void JudgeChange(const CameraParameters& whitened,
+                 const CameraPrior& prior,
+                 const RegisterOptions& options,
+                 Registration& registration);
 
 }  // namespace groundglass

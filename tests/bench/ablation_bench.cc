@@ -32,15 +32,15 @@ std::vector<Variant> MakeVariants() {
   };
   add("everything");
   RegisterOptions& no_gate = add("no orientation gate");
-  no_gate.refine.gate_deg = no_gate.score.gate_deg = 90;
+  no_gate.refine.matching.gate_deg = no_gate.score.gate_deg = 90;
   add("no hypotheses").hypotheses.max_starts = 0;
   RegisterOptions& wide = add("no hypotheses, full range");
   wide.hypotheses.max_starts = 0;
   wide.refine.start_sigmas = 1;
   add("no annealing").refine.start_sigmas = 1e-6;
   RegisterOptions& exact_model = add("no edge offsets");
-  exact_model.refine.edge_offset_m = exact_model.refine.edge_turn_m = 1e-6;
-  add("strongest candidate alone").refine.max_candidates = 1;
+  exact_model.refine.bias.edge_offset_m = exact_model.refine.bias.edge_turn_m = 1e-6;
+  add("strongest candidate alone").refine.matching.max_candidates = 1;
   return variants;
 }
 

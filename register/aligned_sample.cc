@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/aligned_sample.h"
+
+#include <cmath>
+
+namespace groundglass {
+
+AlignedSample MakeAlignedSample(const CandidateSample& found,
+                                const SoftMatch& match,
+                                double units_per_metre,
+                                const EdgeBias& bias) {
+  const double px_per_metre = units_per_metre * found.px_per_unit;
+  AlignedSample aligned;
+  aligned.point_in_world = found.sample.point_in_world;
+  aligned.edge = found.sample.edge;
+  aligned.along = found.sample.along;
+  aligned.origin_px = found.origin_px;
+  aligned.normal = found.normal;
+  aligned.offset_px = match.offset_px;
+  aligned.precision = match.precision;
+  const double coarseness_px = found.sample.coarseness * found.px_per_unit;
+  aligned.bias_px = {std::hypot(bias.edge_offset_m * px_per_metre, coarseness_px),
+                     bias.edge_turn_m * px_per_metre * found.sample.along};
+  aligned.shared_bias_px = bias.shared_offset_m * px_per_metre;
+  aligned.is_upright = std::abs(found.sample.direction_in_world.z()) > 0.7;
+  return aligned;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/edge_coarseness.h"
+
+#include "scene/frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace groundglass {
+namespace {
+
+// Creases that turn by more are meant as they are drawn.
+constexpr double kSharpestRoundingDeg = 50;
+// Wide facets that meet at a shallow angle are roofs more often than roundings.
+constexpr double kMostRounding_m = 0.1;
+constexpr double kGround_m = 0.07;
+
+// How far a face reaches from an edge of its own.
+double WidthFromEdge(const PolygonModel& model, int face, const ModelEdge& edge) {
+  const Eigen::Vector3d direction = (edge.end_in_world - edge.start_in_world).normalized();
+  double width = 0;
+  for (const int point : model.faces[face].points) {
+    const Eigen::Vector3d offset = model.points_in_world[point] - edge.start_in_world;
+    width = std::max(width, (offset - direction.dot(offset) * direction).norm());
+  }
+  return width;
+}
+
+}  // namespace
+
+std::vector<double> FindEdgeCoarseness(const PolygonModel& model,
+                                       const std::vector<ModelEdge>& edges) {
+  const double units_per_metre = 1 / MetresPerUnit(model.unit);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& point : model.points_in_world) lowest = std::min(lowest, point.z());
+  const double ground_tolerance = 0.01 * units_per_metre;
+
+  std::vector<double> coarseness;
+  coarseness.reserve(edges.size());
+  for (const ModelEdge& edge : edges) {
+    double sigma = 0;
+    if (edge.kind == ModelEdge::Kind::kBoundary) {
+      const double highest_end = std::max(edge.start_in_world.z(), edge.end_in_world.z());
+      if (highest_end < lowest + ground_tolerance) sigma = kGround_m * units_per_metre;
+    } else if (edge.kind == ModelEdge::Kind::kCrease && edge.angle_deg <= kSharpestRoundingDeg) {
+      const double chord = std::min(WidthFromEdge(model, edge.first_face, edge),
+                                    WidthFromEdge(model, edge.second_face, edge));
+      sigma = std::min(chord / 2 * std::tan(RadiansFromDegrees(edge.angle_deg) / 4),
+                       kMostRounding_m * units_per_metre);
+    }
+    coarseness.push_back(sigma);
+  }
+  return coarseness;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "register/aligned_sample.h"
+#include "register/camera_prior.h"
+#include "register/edge_matches.h"
+
+#include <vector>
+
+namespace groundglass {
+
+// One photograph as it was aligned by itself, with what it offers about the camera found.
+struct AlignedPhotograph {
+  CameraPrior prior;
+  ViewTag measured;
+  int width_px = 0;  // of the picture that was aligned
+  int height_px = 0;
+  std::vector<CandidateSample> found;  // sorted by edge
+  CameraParameters whitened = CameraParameters::Zero();
+  double noise_px = 1;  // spread of the matched residuals
+};
+
+struct JointOptions {
+  // What a model edge lies off in all photographs alike, metres: of its shift as a whole, and of
+  // its ends apart from that. The scale of a distribution with long tails (Cauchy), since most
+  // edges are where the model has them and a few are far away.
+  double common_offset_m = 0.03;
+  double common_turn_m = 0.03;
+  // What is seen of an edge in one photograph only (light, blur, a joint on its sunny side).
+  EdgeBias own = {0.012, 0.012, 0.03};
+  // The part of a prior's variance that is the photograph's own; the rest is its lens', and the
+  // same for all photographs of that lens. Slides have a scale and an aspect of their own.
+  double own_k1_share = 0.001;
+  double own_view_angle_share = 1;
+  double own_aspect_share = 1;
+  // How often candidates are chosen anew, and how far from an edge: it shrinks by this factor a
+  // round, down to matching.final_range_px.
+  int num_rounds = 5;
+  double start_range_px = 6;
+  double shrink = 0.6;
+  double min_noise_px = 0.3;
+  MatchOptions matching;
+};
+
+// How far a model edge was found from where the model has it.
+struct EdgeDisplacement {
+  int edge = -1;  // in EdgeModel::edges
+  // Of the edge's two ends, across it, model's unit.
+  Eigen::Vector3d start_in_world = Eigen::Vector3d::Zero();
+  Eigen::Vector3d end_in_world = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the edge's middle
+  int num_photographs = 0;                               // that show it
+};
+
+struct JointSolution {
+  CameraParameters whitened = CameraParameters::Zero();
+  CameraCovariance covariance = CameraCovariance::Identity();  // of the whitened parameters
+  double noise_px = 0;
+  int num_matched = 0;
+};
+
+struct JointRefinement {
+  std::vector<JointSolution> photographs;       // in the order given
+  std::vector<EdgeDisplacement> displacements;  // in order of edge
+};
+
+// Solves all photographs together: cameras with their priors, the lens that photographs share, and
+// where each model edge really is, so that a cornice that the model has a hand too low drags no
+// camera. Starts are the photographs' own solutions. lenses: for each photograph, the number of its
+// lens, from 0. Deterministic; one thread.
+JointRefinement RefineTogether(const EdgeModel& edge_model,
+                               const std::vector<AlignedPhotograph>& photographs,
+                               const std::vector<int>& lenses,
+                               const JointOptions& options);
+
+}  // namespace groundglass

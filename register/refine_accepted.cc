@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/refine_accepted.h"
+
+#include "register/verdict.h"
+#include "register/write_solution.h"
+
+#include <map>
+#include <tuple>
+
+namespace groundglass {
+namespace {
+
+// What photographs of the same lens have in common.
+using LensKey = std::tuple<std::string, int, int, double, double>;
+
+LensKey LensKeyOf(const Registration& registration) {
+  const ViewTag& tag = registration.measured;
+  if (!tag.camera.empty()) return {tag.camera, 0, 0, 0, 0};
+  return {"", registration.width_px, registration.height_px, tag.view_angle_deg, tag.aspect};
+}
+
+}  // namespace
+
+std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
+                                             const RegisterOptions& options,
+                                             std::vector<PhotographAlignment>& alignments) {
+  std::vector<Registration*> registrations;
+  std::vector<AlignedPhotograph> photographs;
+  std::vector<int> lenses;
+  std::map<LensKey, int> lens_of_key;
+  for (PhotographAlignment& alignment : alignments) {
+    if (alignment.registration.verdict != Verdict::kAccepted) continue;
+    if (alignment.aligned.found.empty()) continue;
+    registrations.push_back(&alignment.registration);
+    photographs.push_back(std::move(alignment.aligned));
+    const int next = static_cast<int>(lens_of_key.size());
+    lenses.push_back(lens_of_key.emplace(LensKeyOf(alignment.registration), next).first->second);
+  }
+  if (photographs.size() < 2) return {};
+  const JointRefinement joint = RefineTogether(edge_model, photographs, lenses, options.joint);
+  for (size_t i = 0; i < photographs.size(); ++i) {
+    const AlignedPhotograph& photograph = photographs[i];
+    std::vector<Eigen::Vector3d> points_in_world;
+    for (const CandidateSample& found : photograph.found) {
+      points_in_world.push_back(found.sample.point_in_world);
+    }
+    WriteSolution(joint.photographs[i],
+                  photograph.prior,
+                  points_in_world,
+                  photograph.width_px,
+                  photograph.height_px,
+                  *registrations[i]);
+    JudgeChange(joint.photographs[i].whitened, photograph.prior, options, *registrations[i]);
+    OverruleVerdict(options.overrule, *registrations[i]);
+  }
+  return joint.displacements;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/write_solution.h"
+
+namespace groundglass {
+
+double MeanDisplacementPx(const std::vector<Eigen::Vector3d>& points_in_world,
+                          const ParameterProjection& one,
+                          const ParameterProjection& other) {
+  double sum = 0;
+  int count = 0;
+  for (const Eigen::Vector3d& point : points_in_world) {
+    const auto a = one.Project(point);
+    const auto b = other.Project(point);
+    if (!a || !b) continue;
+    sum += (a->image_px - b->image_px).norm();
+    ++count;
+  }
+  return count ? sum / count : 0;
+}
+
+void WriteSolution(const JointSolution& solution,
+                   const CameraPrior& prior,
+                   const std::vector<Eigen::Vector3d>& points_in_world,
+                   int width_px,
+                   int height_px,
+                   Registration& registration) {
+  const CameraParameters parameters = prior.mean + prior.root * solution.whitened;
+  const double to_photograph = static_cast<double>(registration.width_px) / width_px;
+  const double k2 = registration.measured.k2;
+  registration.corrected = TagFromParameters(parameters, registration.measured);
+  registration.covariance = prior.root * solution.covariance * prior.root.transpose();
+  registration.sigmas = registration.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  registration.num_samples = solution.num_matched;
+  registration.rms_px = solution.noise_px * to_photograph;
+  registration.moved_px =
+      to_photograph * MeanDisplacementPx(points_in_world,
+                                         ParameterProjection(prior.mean, k2, width_px, height_px),
+                                         ParameterProjection(parameters, k2, width_px, height_px));
+}
+
+}  // namespace groundglass

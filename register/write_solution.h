@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "register/joint_refinement.h"
+#include "register/parameter_projection.h"
+#include "scene/registration.h"
+
+#include <Eigen/Dense>
+
+#include <vector>
+
+namespace groundglass {
+
+// Mean distance between points as two cameras project them, px of the cameras' pictures.
+double MeanDisplacementPx(const std::vector<Eigen::Vector3d>& points_in_world,
+                          const ParameterProjection& one,
+                          const ParameterProjection& other);
+
+// Writes a solution into a registration: the corrected tag, covariance, residuals, and how far
+// points that the photograph shows have moved. solution: found on a picture of width_px x
+// height_px, of which the registration's own size is a multiple; the registration has its sizes and
+// its measured tag.
+void WriteSolution(const JointSolution& solution,
+                   const CameraPrior& prior,
+                   const std::vector<Eigen::Vector3d>& points_in_world,
+                   int width_px,
+                   int height_px,
+                   Registration& registration);
+
+}  // namespace groundglass
