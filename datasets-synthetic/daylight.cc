@@ -20,9 +20,10 @@ std::vector<Eigen::Vector3d> CosineDirections(int count) {
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   for (int i = 0; i < count; ++i) {
     const double radius = std::sqrt((i + 0.5) / count);
-    directions.push_back({radius * std::cos(golden_angle * i),
-                          radius * std::sin(golden_angle * i),
-                          std::sqrt(1 - radius * radius)});
+    // Half a step on: from a wall no ray may run level, or rounding would say whether it sees sky.
+    const double angle = golden_angle * (i + 0.5);
+    directions.push_back(
+        {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - radius * radius)});
   }
   return directions;
 }
