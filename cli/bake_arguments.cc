@@ -39,6 +39,13 @@ void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::st
                    "texels along a side of the largest page")
       ->capture_default_str()
       ->group(group);
+  command
+      ->add_option("--memory",
+                   arguments.options.max_memory_mb,
+                   "MB of memory that texturing may take; 0: no limit. Texels become larger where "
+                   "it must be")
+      ->capture_default_str()
+      ->group(group);
   command->add_option("--exclude", arguments.exclude, "photographs to leave out, by name")
       ->delimiter(',')
       ->group(group);
@@ -88,6 +95,7 @@ void DescribeBake(const BakeArguments& arguments, Manifest& manifest) {
   const auto yes = [](bool value) { return value ? "yes" : "no"; };
   manifest.options["texel-size"] = FormatNumber(arguments.options.texel_size);
   manifest.options["max-texture"] = std::to_string(arguments.options.max_page_texels);
+  manifest.options["memory"] = std::to_string(arguments.options.max_memory_mb);
   manifest.options["exclude"] = Join(arguments.exclude);
   manifest.options["only"] = Join(arguments.only);
   manifest.options["format"] = arguments.format;

@@ -84,6 +84,7 @@ void PrintSummary(const BakeResult& result, size_t num_photographs, bool as_json
                                          {"faces_without_texture", num_bare},
                                          {"covered_share", result.coverage.CoveredShare()},
                                          {"covered_texels", num_texels},
+                                         {"texel_scale", result.texel_scale},
                                          {"pages", result.model.pages.size()}};
     std::printf("%s\n", json.dump(2).c_str());
     return;
@@ -97,6 +98,10 @@ void PrintSummary(const BakeResult& result, size_t num_photographs, bool as_json
       num_bare,
       static_cast<double>(num_texels) / 1e6,
       result.model.pages.size());
+  if (result.texel_scale > 1) {
+    std::printf("texels are %.2f times as long as the photographs allow, to stay within --memory\n",
+                result.texel_scale);
+  }
 }
 
 int RunInvrender(const InvrenderArguments& arguments) {

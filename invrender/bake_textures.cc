@@ -8,6 +8,7 @@
 #include "invrender/dilate.h"
 #include "invrender/fill.h"
 #include "invrender/invrender.h"
+#include "invrender/memory_plan.h"
 #include "invrender/missing.h"
 #include "invrender/packing.h"
 #include "invrender/prepared_photo.h"
@@ -44,6 +45,17 @@ class Steps {
   std::mutex mutex_;
 };
 
+// Photographs and charts one after the other where memory is short; there is work for all cores in
+// each of them.
+template <typename Work>
+void ForEach(int count, const BakeOptions& options, const Work& work) {
+  if (options.max_memory_mb == 0) {
+    tbb::parallel_for(0, count, work);
+  } else {
+    for (int i = 0; i < count; ++i) work(i);
+  }
+}
+
 std::vector<std::filesystem::path> ImageFiles(const std::vector<BakePhotograph>& photographs) {
   std::vector<std::filesystem::path> files;
   for (const BakePhotograph& photograph : photographs) files.push_back(photograph.image_file);
@@ -58,7 +70,7 @@ std::vector<PreparedPhoto> PreparePhotos(const PolygonModel& model,
                                          PhotoCache& cache,
                                          Steps& steps) {
   std::vector<std::optional<PreparedPhoto>> prepared(photographs.size());
-  tbb::parallel_for(0, static_cast<int>(photographs.size()), [&](int i) {
+  ForEach(static_cast<int>(photographs.size()), options, [&](int i) {
     prepared[i].emplace(photographs[i], i, model, visibility, chart_of_face, options, cache);
     steps.Tell("read " + photographs[i].name);
   });
@@ -187,6 +199,7 @@ void BakeOptions::Check() const {
   if (!(border_margin_px >= 0 && border_margin_px <= 20)) {
     throw Error("border_margin_px must be from 0 to 20");
   }
+  if (max_memory_mb < 0) throw Error("max_memory_mb must be 0 (no limit) or more");
   if (!(frame_margin >= 0 && frame_margin < 0.4)) throw Error("frame_margin must be in [0, 0.4)");
 }
 
@@ -206,22 +219,28 @@ BakeResult BakeTextures(const PolygonModel& model,
   std::vector<Chart> charts = MakeCharts(model);
   const std::vector<int> chart_of_face = ChartOfFace(charts, model.faces.size());
   const int num_charts = static_cast<int>(charts.size());
-  Steps steps(progress, static_cast<int>(sorted.size()) + 2 * num_charts);
-  PhotoCache cache(ImageFiles(sorted), std::numeric_limits<size_t>::max());
+  Steps steps(progress, static_cast<int>(sorted.size()) + 1 + num_charts);
+  const bool is_limited = options.max_memory_mb > 0;
+  PhotoCache cache(ImageFiles(sorted), is_limited ? 0 : std::numeric_limits<size_t>::max());
   const std::vector<PreparedPhoto> photos =
       PreparePhotos(model, sorted, visibility, chart_of_face, options, cache, steps);
   ChooseTexelSizes(model, photos, options, charts);
+  BakeResult result;
+  if (is_limited) {
+    const MemoryPlan plan =
+        PlanMemory(charts, photos, static_cast<size_t>(options.max_memory_mb) * 1000000);
+    result.texel_scale = plan.texel_scale;
+    for (Chart& chart : charts) {
+      if (chart.texel_size > 0) chart.SetTexelSize(chart.texel_size * plan.texel_scale);
+    }
+    cache.SetMaxBytes(plan.photo_bytes);
+  }
   const std::vector<PageSize> page_sizes =
       PackCharts(charts, options.gutter_texels, options.max_page_texels);
 
   // Settle colour and choice on cells.
-  std::vector<ChartCells> cells(charts.size());
-  tbb::parallel_for(0, num_charts, [&](int i) {
-    if (charts[i].page >= 0) {
-      cells[i] = ObserveCells(charts[i], i, ChartTexels(model, charts[i]), photos);
-    }
-    steps.Tell("compared the photographs of chart " + std::to_string(i + 1));
-  });
+  const std::vector<ChartCells> cells = ObserveCells(model, charts, photos);
+  steps.Tell("compared the photographs");
   // Occluders are told from exposure even where the pages keep the photographs' own exposures.
   const ColourModel neutral = MakeNeutralColour(cells, photos.size());
   const ColourModel matched = options.match_colour || options.reject_occluders
@@ -230,10 +249,9 @@ BakeResult BakeTextures(const PolygonModel& model,
   const ColourModel& printed = options.match_colour ? matched : neutral;
 
   // Fill the pages.
-  BakeResult result;
   result.model = MakeTexturedModel(model, charts, chart_of_face, page_sizes);
   result.coverage = StartCoverage(model, charts, chart_of_face);
-  tbb::parallel_for(0, num_charts, [&](int i) {
+  ForEach(num_charts, options, [&](int i) {
     const Chart& chart = charts[i];
     if (chart.page >= 0) {
       const ChartTexels texels(model, chart);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 namespace groundglass {
 namespace {
@@ -50,10 +51,86 @@ CellView ViewCell(const PreparedPhoto& photo,
   return view;
 }
 
-// The photographs that may see some of the chart.
-std::vector<int> FindCandidates(const Chart& chart,
-                                int chart_index,
-                                const std::vector<PreparedPhoto>& photos) {
+// A chart's cells on the way.
+class CellObserver {
+ public:
+  CellObserver(const PolygonModel& model,
+               const Chart& chart,
+               int chart_index,
+               const std::vector<PreparedPhoto>& photos)
+      : chart_(chart), chart_index_(chart_index) {
+    const ChartTexels texels(model, chart);
+    cells_.width = (chart.width_texels + kCellTexels - 1) / kCellTexels;
+    cells_.height = (chart.height_texels + kCellTexels - 1) / kCellTexels;
+    cells_.photos = FindPhotosOfChart(chart, chart_index, photos);
+    cells_.views.resize(cells_.photos.size() * cells_.NumCells());
+    sees_.assign(cells_.photos.size(), 0);
+    spots_.resize(cells_.NumCells());
+    tbb::parallel_for(0, cells_.height, [&](int cell_y) {
+      for (int cell_x = 0; cell_x < cells_.width; ++cell_x) {
+        int x = 0;
+        int y = 0;
+        if (!FindTexel(texels, cell_x, cell_y, x, y)) continue;
+        spots_[cell_y * cells_.width + cell_x] = {
+            (chart.texel_size * texels.PointAt(x, y)).cast<float>(), texels.FaceAt(x, y)};
+      }
+    });
+  }
+
+  bool MaySee(int photo) const {
+    return std::binary_search(cells_.photos.begin(), cells_.photos.end(), photo);
+  }
+
+  void Observe(int photo_index, const PreparedPhoto& photo, const PhotoPyramid& pixels) {
+    const auto at = std::lower_bound(cells_.photos.begin(), cells_.photos.end(), photo_index);
+    const size_t k = at - cells_.photos.begin();
+    const size_t num_photos = cells_.photos.size();
+    const ChartInCamera view = photo.View(chart_, chart_index_);
+    std::vector<char> sees_row(cells_.height, 0);
+    tbb::parallel_for(0, cells_.height, [&](int cell_y) {
+      for (int cell = cell_y * cells_.width; cell < (cell_y + 1) * cells_.width; ++cell) {
+        const Spot& spot = spots_[cell];
+        if (spot.face < 0) continue;
+        const auto sighting = photo.Sight(view, spot.plane_point.cast<double>(), spot.face);
+        if (!sighting) continue;
+        CellView& cell_view = cells_.views[cell * num_photos + k];
+        cell_view = ViewCell(photo, pixels, *sighting, chart_.texel_size);
+        if (cell_view.quality > 0) sees_row[cell_y] = 1;
+      }
+    });
+    sees_[k] = std::find(sees_row.begin(), sees_row.end(), 1) != sees_row.end();
+  }
+
+  // Photographs that see none of it are left out.
+  ChartCells Finish() {
+    const size_t num_photos = cells_.photos.size();
+    size_t num_kept = 0;
+    for (size_t i = 0; i < cells_.views.size(); ++i) {
+      if (sees_[i % num_photos]) cells_.views[num_kept++] = cells_.views[i];
+    }
+    cells_.views.resize(num_kept);
+    size_t k = 0;
+    std::erase_if(cells_.photos, [&](int) { return !sees_[k++]; });
+    return std::move(cells_);
+  }
+
+ private:
+  struct Spot {
+    Eigen::Vector2f plane_point;
+    int face = -1;
+  };
+  const Chart& chart_;
+  int chart_index_;
+  ChartCells cells_;
+  std::vector<char> sees_;
+  std::vector<Spot> spots_;
+};
+
+}  // namespace
+
+std::vector<int> FindPhotosOfChart(const Chart& chart,
+                                   int chart_index,
+                                   const std::vector<PreparedPhoto>& photos) {
   std::vector<int> facing;
   std::vector<int> showing;
   for (size_t photo = 0; photo < photos.size(); ++photo) {
@@ -68,63 +145,30 @@ std::vector<int> FindCandidates(const Chart& chart,
   return showing.empty() ? facing : showing;
 }
 
-// Where a cell is looked up.
-struct CellSpot {
-  Eigen::Vector2d plane_point;
-  int face = -1;
-};
-
-}  // namespace
-
-ChartCells ObserveCells(const Chart& chart,
-                        int chart_index,
-                        const ChartTexels& texels,
-                        const std::vector<PreparedPhoto>& photos) {
-  ChartCells cells;
-  cells.width = (chart.width_texels + kCellTexels - 1) / kCellTexels;
-  cells.height = (chart.height_texels + kCellTexels - 1) / kCellTexels;
-  std::vector<CellSpot> spots(cells.NumCells());
-  tbb::parallel_for(0, cells.height, [&](int cell_y) {
-    for (int cell_x = 0; cell_x < cells.width; ++cell_x) {
-      int x = 0;
-      int y = 0;
-      if (!FindTexel(texels, cell_x, cell_y, x, y)) continue;
-      spots[cell_y * cells.width + cell_x] = {chart.texel_size * texels.PointAt(x, y),
-                                              texels.FaceAt(x, y)};
-    }
+std::vector<ChartCells> ObserveCells(const PolygonModel& model,
+                                     const std::vector<Chart>& charts,
+                                     const std::vector<PreparedPhoto>& photos) {
+  const int num_charts = static_cast<int>(charts.size());
+  std::vector<std::optional<CellObserver>> observers(charts.size());
+  tbb::parallel_for(0, num_charts, [&](int i) {
+    if (charts[i].page >= 0) observers[i].emplace(model, charts[i], i, photos);
   });
-  const std::vector<int> candidates = FindCandidates(chart, chart_index, photos);
-  const size_t num_candidates = candidates.size();
-  std::vector<CellView> all(num_candidates * cells.NumCells());
-  std::vector<char> sees(num_candidates, 0);
-  for (size_t k = 0; k < num_candidates; ++k) {
-    const PreparedPhoto& photo = photos[candidates[k]];
-    const ChartInCamera view = photo.View(chart, chart_index);
-    const std::shared_ptr<const PhotoPyramid> pixels = photo.Pixels();
-    std::vector<char> sees_row(cells.height, 0);
-    tbb::parallel_for(0, cells.height, [&](int cell_y) {
-      for (int cell = cell_y * cells.width; cell < (cell_y + 1) * cells.width; ++cell) {
-        if (spots[cell].face < 0) continue;
-        const auto sighting = photo.Sight(view, spots[cell].plane_point, spots[cell].face);
-        if (!sighting) continue;
-        CellView& cell_view = all[cell * num_candidates + k];
-        cell_view = ViewCell(photo, *pixels, *sighting, chart.texel_size);
-        if (cell_view.quality > 0) sees_row[cell_y] = 1;
+  for (int photo = 0; photo < static_cast<int>(photos.size()); ++photo) {
+    std::shared_ptr<const PhotoPyramid> pixels;
+    for (const std::optional<CellObserver>& observer : observers) {
+      if (!pixels && observer && observer->MaySee(photo)) pixels = photos[photo].Pixels();
+    }
+    tbb::parallel_for(0, num_charts, [&](int i) {
+      if (observers[i] && observers[i]->MaySee(photo)) {
+        observers[i]->Observe(photo, photos[photo], *pixels);
       }
     });
-    sees[k] = std::find(sees_row.begin(), sees_row.end(), 1) != sees_row.end();
   }
-  for (size_t k = 0; k < num_candidates; ++k) {
-    if (sees[k]) cells.photos.push_back(candidates[k]);
-  }
-  if (cells.photos.size() == num_candidates) {
-    cells.views = std::move(all);
-    return cells;
-  }
-  cells.views.reserve(cells.photos.size() * cells.NumCells());
-  for (size_t i = 0; i < all.size(); ++i) {
-    if (sees[i % num_candidates]) cells.views.push_back(all[i]);
-  }
+  std::vector<ChartCells> cells(charts.size());
+  tbb::parallel_for(0, num_charts, [&](int i) {
+    if (observers[i]) cells[i] = observers[i]->Finish();
+    observers[i].reset();
+  });
   return cells;
 }
 

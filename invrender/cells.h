@@ -33,10 +33,15 @@ struct ChartCells {
   const CellView* ViewsOf(int cell) const { return &views[cell * photos.size()]; }
 };
 
-// Looks every cell of a chart up in every photograph, one after the other.
-ChartCells ObserveCells(const Chart& chart,
-                        int chart_index,
-                        const ChartTexels& texels,
-                        const std::vector<PreparedPhoto>& photos);
+// The photographs that may see some of the chart, ascending.
+std::vector<int> FindPhotosOfChart(const Chart& chart,
+                                   int chart_index,
+                                   const std::vector<PreparedPhoto>& photos);
+
+// Looks every cell of every chart up in every photograph, photograph by photograph, so that each is
+// decoded once; charts that have no page stay empty.
+std::vector<ChartCells> ObserveCells(const PolygonModel& model,
+                                     const std::vector<Chart>& charts,
+                                     const std::vector<PreparedPhoto>& photos);
 
 }  // namespace groundglass

@@ -207,9 +207,10 @@ class CorrectionTable {
   std::array<Eigen::Array3f, kSteps + 2> values_;
 };
 
-// One look-up for a texel of a strip.
+// One look-up for a texel of a row.
 struct Lookup {
-  int texel = 0;
+  int k = 0;
+  int x = 0;
   float weight = 0;
   Eigen::Vector2f image_px;
   Eigen::Matrix2f px_from_unit;
@@ -227,7 +228,7 @@ ChartPixels ComposeChart(const Chart& chart,
                          const ChartChoice& choice,
                          const ColourModel& colour,
                          const BakeOptions& options) {
-  constexpr int kStripRows = 32;
+  constexpr int kBandTexels = 1 << 20;
   const int width = chart.width_texels;
   const int height = chart.height_texels;
   ChartPixels pixels;
@@ -243,13 +244,14 @@ ChartPixels ComposeChart(const Chart& chart,
   Raster<float> footprints((width + kFootprintStep - 1) / kFootprintStep,
                            (height + kFootprintStep - 1) / kFootprintStep,
                            1);
-  // Strip by strip: first who shows each texel and where, then photograph by photograph what.
-  tbb::parallel_for(0, (height + kStripRows - 1) / kStripRows, [&](int strip) {
-    const int y0 = strip * kStripRows;
-    const int y1 = std::min(height, y0 + kStripRows);
-    std::vector<std::vector<Lookup>> lookups(cells.photos.size());
-    std::vector<Ingredient> ingredients;
-    for (int y = y0; y < y1; ++y) {
+  // Band by band: first who shows each texel and where, then, photograph by photograph, what.
+  const int band_rows = std::max(16, kBandTexels / width);
+  for (int y0 = 0; y0 < height; y0 += band_rows) {
+    const int num_rows = std::min(height - y0, band_rows);
+    std::vector<std::vector<Lookup>> lookups(num_rows);  // by photograph
+    tbb::parallel_for(0, num_rows, [&](int row) {
+      std::vector<Ingredient> ingredients;
+      const int y = y0 + row;
       for (int x = 0; x < width; ++x) {
         if (texels.FaceAt(x, y) < 0) continue;
         ingredients.resize(1);
@@ -260,7 +262,8 @@ ChartPixels ComposeChart(const Chart& chart,
         if (!ingredients.empty()) {
           state = mixer.IsGood(ingredients) ? TexelState::kGood : TexelState::kWeak;
           for (const Ingredient& i : ingredients) {
-            lookups[i.k].push_back({(y - y0) * width + x,
+            lookups[row].push_back({i.k,
+                                    x,
                                     static_cast<float>(i.weight),
                                     i.sighting.image_px.cast<float>(),
                                     i.sighting.px_from_unit.cast<float>()});
@@ -280,29 +283,37 @@ ChartPixels ComposeChart(const Chart& chart,
         }
         *pixels.states.At(x, y) = static_cast<uint8_t>(state);
       }
+      std::stable_sort(lookups[row].begin(),
+                       lookups[row].end(),
+                       [](const Lookup& a, const Lookup& b) { return a.k < b.k; });
+    });
+    std::vector<char> is_used(cells.photos.size(), 0);
+    for (const std::vector<Lookup>& row : lookups) {
+      for (const Lookup& lookup : row) is_used[lookup.k] = 1;
     }
-    std::vector<Eigen::Array3f> radiance(static_cast<size_t>(width) * (y1 - y0),
-                                         Eigen::Array3f::Zero());
-    for (size_t k = 0; k < lookups.size(); ++k) {
-      if (lookups[k].empty()) continue;
+    ImageF radiance(width, num_rows, 3);
+    std::vector<size_t> next(num_rows, 0);  // in lookups
+    for (int k = 0; k < static_cast<int>(cells.photos.size()); ++k) {
+      if (!is_used[k]) continue;
       const PreparedPhoto& photo = photos[cells.photos[k]];
       const std::shared_ptr<const PhotoPyramid> pyramid = photo.Pixels();
-      for (const Lookup& lookup : lookups[k]) {
-        const Eigen::Vector2d image_px = lookup.image_px.cast<double>();
-        radiance[lookup.texel] +=
-            lookup.weight *
-            pyramid->Sample(image_px, lookup.px_from_unit.cast<double>() * chart.texel_size, 4) *
-            corrections[k].At(photo.RadiusSquared(image_px));
-      }
+      tbb::parallel_for(0, num_rows, [&](int row) {
+        for (; next[row] < lookups[row].size() && lookups[row][next[row]].k == k; ++next[row]) {
+          const Lookup& lookup = lookups[row][next[row]];
+          const Eigen::Vector2d image_px = lookup.image_px.cast<double>();
+          Eigen::Map<Eigen::Array3f>(radiance.At(lookup.x, row)) +=
+              lookup.weight *
+              pyramid->Sample(image_px, lookup.px_from_unit.cast<double>() * chart.texel_size, 4) *
+              corrections[k].At(photo.RadiusSquared(image_px));
+        }
+      });
     }
-    for (int y = y0; y < y1; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const Eigen::Array3f& value = radiance[static_cast<size_t>(y - y0) * width + x];
-        uint8_t* srgb8 = pixels.srgb8.At(x, y);
-        for (int c = 0; c < 3; ++c) srgb8[c] = Srgb8FromRadiance(value[c]);
-      }
-    }
-  });
+    tbb::parallel_for(0, num_rows, [&](int row) {
+      const float* from = radiance.At(0, row);
+      uint8_t* to = pixels.srgb8.At(0, y0 + row);
+      for (int i = 0; i < 3 * width; ++i) to[i] = Srgb8FromRadiance(from[i]);
+    });
+  }
 
   std::map<std::pair<int, int>, FaceSource> sources;
   FaceSource* last = nullptr;

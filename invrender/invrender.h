@@ -44,6 +44,11 @@ struct BakeOptions {
   double border_margin_px = 2;
   // Pixels nearer than this to the frame's edge are never used, as a fraction of its width.
   double frame_margin = 0.004;
+  // At most this much memory for the whole program, millions of bytes; 0: no limit. Photographs are
+  // decoded again when they are needed again, charts are done one after the other, and where even
+  // the pages are too large, texels become larger (BakeResult::texel_scale).
+  int max_memory_mb = 0;
+
   // Finds the black mount of a slide at the frame's edges and keeps it out.
   bool detect_mount = true;
 
@@ -66,6 +71,7 @@ struct BakeOptions {
 struct BakeResult {
   TexturedModel model;
   Coverage coverage;
+  double texel_scale = 1;  // above 1: texels were made this much longer to stay within the memory
 };
 
 // Inverse rendering (Thorman 1988, chapter 4): every texel of every face is looked up through the

@@ -33,16 +33,26 @@ std::shared_ptr<const PhotoPyramid> PhotoCache::Get(int photo) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++num_decoded_;
   num_bytes_ += pyramid->NumBytes();
+  DropOldest();
+  uses_.push_front(photo);
+  entry.use = uses_.begin();
+  entry.pyramid = pyramid;
+  return pyramid;
+}
+
+void PhotoCache::DropOldest() {
   while (num_bytes_ > max_bytes_ && !uses_.empty()) {
     Entry& oldest = *entries_[uses_.back()];
     num_bytes_ -= oldest.pyramid->NumBytes();
     oldest.pyramid.reset();
     uses_.pop_back();
   }
-  uses_.push_front(photo);
-  entry.use = uses_.begin();
-  entry.pyramid = pyramid;
-  return pyramid;
+}
+
+void PhotoCache::SetMaxBytes(size_t max_bytes) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  max_bytes_ = max_bytes;
+  DropOldest();
 }
 
 size_t PhotoCache::num_bytes() const {

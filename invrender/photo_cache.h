@@ -23,10 +23,14 @@ class PhotoCache {
   // Throws Error for a file that cannot be read.
   std::shared_ptr<const PhotoPyramid> Get(int photo);
 
+  void SetMaxBytes(size_t max_bytes);
+
   size_t num_bytes() const;
   long num_decoded() const;
 
  private:
+  void DropOldest();  // until the limit holds; mutex_ is locked
+
   struct Entry {
     std::filesystem::path file;
     std::mutex decoding;

@@ -60,6 +60,9 @@ class PreparedPhoto {
   double Quality(const Sighting& sighting) const;
 
   std::shared_ptr<const PhotoPyramid> Pixels() const { return cache_.Get(index_); }
+  // What they take when decoded: a third more than three bytes a pixel.
+  double NumPixelBytes() const { return 4.0 * camera_.width_px * camera_.height_px; }
+  size_t NumMaskBytes() const { return sight_map_.NumBytes(); }
 
   // Squared distance from the image's centre, 1 at the corners: vignetting's argument.
   double RadiusSquared(const Eigen::Vector2d& image_px) const {

@@ -26,6 +26,7 @@ class SightMap {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  size_t NumBytes() const { return tiles_.size() * sizeof(Tile) + pixels_.size() * sizeof(Pixel); }
   Pixel At(int x, int y) const {
     const Tile& tile = tiles_[static_cast<size_t>(y / kTile) * columns_ + x / kTile];
     if (tile.first < 0) return tile.all;

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/memory_plan.h"
+
+#include "invrender/cells.h"
+#include "scene/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+constexpr double kMegabyte = 1e6;
+// The program and its libraries, before it has read anything.
+constexpr double kProgramBytes = 200 * kMegabyte;
+// A page's texel: colour and provenance; charts do not fill their pages.
+constexpr double kPageBytes = 5 * 1.2;
+// The same again while a chart is laid out, with states, seams' graph and so on.
+constexpr double kChartBytes = 31;
+// Choosing, for each cell and photograph.
+constexpr double kChoiceBytes = 56;
+// Decoded photographs: all of them, as far as this share of the limit goes, but at least a few.
+constexpr double kPhotoShare = 0.3;
+constexpr double kFewPhotos = 3;
+// A band of a chart's texels with their look-ups.
+constexpr double kBandBytes = 80 * kMegabyte;
+// Texels this much longer are no texture any more.
+constexpr double kLargestScale = 8;
+
+}  // namespace
+
+MemoryPlan PlanMemory(const std::vector<Chart>& charts,
+                      const std::vector<PreparedPhoto>& photos,
+                      size_t max_bytes) {
+  constexpr double kCellsOfTexel = 1.0 / (kCellTexels * kCellTexels);
+  double all_charts = 0;
+  double largest_chart = 0;
+  for (size_t i = 0; i < charts.size(); ++i) {
+    if (charts[i].texel_size <= 0) continue;
+    const double num_texels = static_cast<double>(charts[i].width_texels) * charts[i].height_texels;
+    const auto num_views =
+        static_cast<double>(FindPhotosOfChart(charts[i], static_cast<int>(i), photos).size());
+    const double cells = num_texels * kCellsOfTexel * num_views;
+    all_charts += num_texels * kPageBytes + cells * sizeof(CellView);
+    largest_chart = std::max(largest_chart, num_texels * kChartBytes + cells * kChoiceBytes);
+  }
+  double fixed = kProgramBytes + kBandBytes;
+  double largest_photo = 0;
+  double all_photos = 0;
+  for (const PreparedPhoto& photo : photos) {
+    fixed += static_cast<double>(photo.NumMaskBytes());
+    largest_photo = std::max(largest_photo, photo.NumPixelBytes());
+    all_photos += photo.NumPixelBytes();
+  }
+  const auto limit = static_cast<double>(max_bytes);
+  fixed += std::min(all_photos, std::max(kPhotoShare * limit, kFewPhotos * largest_photo));
+  const double needed = all_charts + largest_chart;
+  const double left = limit - fixed;
+  MemoryPlan plan;
+  if (needed > left) plan.texel_scale = left > 0 ? std::sqrt(needed / left) : 1e9;
+  if (plan.texel_scale > kLargestScale) {
+    const double least = fixed + needed / (kLargestScale * kLargestScale);
+    throw Error("these photographs need at least " +
+                std::to_string(static_cast<long>(std::ceil(least / kMegabyte))) +
+                " MB of memory, the limit is " +
+                std::to_string(static_cast<long>(limit / kMegabyte)));
+  }
+  // One more is in memory while it takes another's place.
+  const double spare = left - needed / (plan.texel_scale * plan.texel_scale);
+  const double for_photos = std::min(all_photos, kPhotoShare * limit) + std::max(0.0, spare);
+  plan.photo_bytes = static_cast<size_t>(std::max(0.0, for_photos - largest_photo));
+  return plan;
+}
+
+}  // namespace groundglass
