@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -52,6 +53,7 @@ void AddLongWall(WorldBuilder& builder,
                  const std::string& name) {
   const double length = (to - from).norm();
   const Eigen::Vector2d along = (to - from) / length;
+  std::vector<int> brick_faces;
   const auto piece = [&](double start,
                          double end,
                          double low,
@@ -67,6 +69,7 @@ void AddLongWall(WorldBuilder& builder,
         color,
         name + " " + part);
     if (material == Material::kBrick) {
+      brick_faces.push_back(face);
       AddQuoins(builder.SurfaceOf(face),
                 high,
                 corners.at_from && start == 0,
@@ -96,6 +99,7 @@ void AddLongWall(WorldBuilder& builder,
   piece(0, length, 13, kCourse, Material::kBrick, kBrickRed, "lintels");
   piece(0, length, kCourse, kCourse + 1.5, Material::kStone, kSandstone, "string course");
   piece(0, length, kCourse + 1.5, kEaves, Material::kBrick, kBrickRed, "upper storey");
+  builder.JoinWall(brick_faces);
 }
 
 // A wall that ends in a gable: stone base and a five-cornered brick face with quoins, a coping and

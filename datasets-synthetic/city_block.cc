@@ -63,6 +63,7 @@ void AddWallWithWindows(WorldBuilder& builder,
   const Eigen::Vector2d along = (to - from) / length;
   const int num_windows = std::max(1, static_cast<int>(length / bay));
   const double pitch = length / num_windows;
+  std::vector<int> wall_faces;
   const auto piece = [&](double start, double end, double low, double high, bool is_window) {
     const Eigen::Vector2d a = from + start * along;
     const Eigen::Vector2d b = from + end * along;
@@ -72,7 +73,11 @@ void AddWallWithWindows(WorldBuilder& builder,
         is_window ? Rgb(0.3f, 0.3f, 0.28f) : building.color,
         name + (is_window ? " window" : " wall"));
     // The pane's frame follows the window's own borders.
-    if (is_window) builder.ShiftTexture(face, -builder.SurfaceOf(face).low_u);
+    if (is_window) {
+      builder.ShiftTexture(face, -builder.SurfaceOf(face).low_u);
+    } else {
+      wall_faces.push_back(face);
+    }
   };
   double bottom = 0;
   for (int floor = 0; floor < building.num_floors; ++floor) {
@@ -89,6 +94,7 @@ void AddWallWithWindows(WorldBuilder& builder,
     bottom = sill + kWindow;
   }
   piece(0, length, bottom, building.num_floors * kFloor + 3, false);
+  builder.JoinWall(wall_faces);
 }
 
 void AddBuilding(WorldBuilder& builder, const Building& building, double bay) {

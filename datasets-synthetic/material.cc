@@ -42,7 +42,7 @@ double InRectangle(const Place& at, double low_u, double high_u, double low_v, d
 
 // Streaks that rain leaves below a coping, and splashes above the ground: a factor on the albedo.
 double Weathering(const Surface& surface, const Place& at, double strength) {
-  const double below_top = surface.high_v - at.v;
+  const double below_top = surface.coping_v - at.v;
   const double streak =
       FilteredNoise(surface.seed + 11, at.u, at.v * 0.06, 0.45, 4, at.width_u, at.width_v * 0.06);
   const double streaks = std::max(0.0, streak + 0.15) * std::exp(-below_top / 9) * 0.9;

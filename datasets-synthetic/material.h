@@ -57,11 +57,13 @@ struct Surface {
   Eigen::Vector3d axis_v = Eigen::Vector3d::UnitZ();
   double offset_u = 0;
   double offset_v = 0;
-  // The face's extent in v: weathering runs from the top, dirt splashes from the bottom.
+  // The face's extent.
   double low_v = 0;
   double high_v = 0;
   double low_u = 0;
   double high_u = 0;
+  // The v of the coping that rain streaks run from: the face's top, or that of its whole wall.
+  double coping_v = 0;
   std::vector<Decal> decals;
   int mask_code = 0;  // for things that are not in the model and stand in the way; else 0
   // Part of the building that lies elsewhere than the model says, or is not in it: a deep window,

@@ -95,6 +95,7 @@ int WorldBuilder::AddPolygon(const std::vector<Eigen::Vector3d>& corners_in_worl
     surface.low_v = std::min(surface.low_v, texture.y());
     surface.high_v = std::max(surface.high_v, texture.y());
   }
+  surface.coping_v = surface.high_v;
   world_.surfaces.push_back(surface);
   return index;
 }
@@ -170,6 +171,16 @@ void WorldBuilder::AddTaperedColumn(const Eigen::Vector3d& base,
                color,
                name,
                mask_code);
+  }
+}
+
+void WorldBuilder::JoinWall(const std::vector<int>& faces) {
+  if (faces.empty()) return;
+  double coping_v = -std::numeric_limits<double>::infinity();
+  for (const int face : faces) coping_v = std::max(coping_v, world_.surfaces[face].high_v);
+  for (const int face : faces) {
+    world_.surfaces[face].coping_v = coping_v;
+    world_.surfaces[face].seed = world_.surfaces[faces.front()].seed;
   }
 }
 

@@ -101,6 +101,9 @@ class WorldBuilder {
     world_.contact_shadows.push_back(shadow);
   }
 
+  // Lets the texture and the weathering of a wall's pieces, in one plane, run through them all.
+  void JoinWall(const std::vector<int>& faces);
+
   // Shifts a face's texture along u, so that a wall's grid meets its neighbour's.
   void ShiftTexture(int face, double shift_u);
 

@@ -115,6 +115,24 @@ TEST(Occluders, StandClearOfWallsAndOfPhotographers) {
   EXPECT_THAT(codes, testing::IsSupersetOf({kTree, kLamp, kSign, kPerson}));
 }
 
+// Where a window parts a wall into faces, bricks and stains run on.
+TEST(CityBlock, TexturesRunThroughAWallsPieces) {
+  const SyntheticWorld world = MakeCityBlock(1988, 1000).world;
+  std::vector<int> pieces;
+  for (int face = 0; face < world.num_model_faces; ++face) {
+    if (world.geometry.faces[face].name == "house 1 south wall") pieces.push_back(face);
+  }
+  ASSERT_GT(pieces.size(), 5u);
+  const Surface& lower = world.surfaces[pieces[0]];
+  const Surface& upper = world.surfaces[pieces[1]];
+  const double v = lower.high_v;
+  EXPECT_EQ(v, upper.low_v);
+  for (double u = upper.low_u; u < upper.high_u; u += 0.1) {
+    EXPECT_EQ(AppearanceAt(lower, u, v, 0.1, 0.1).albedo,
+              AppearanceAt(upper, u, v, 0.1, 0.1).albedo);
+  }
+}
+
 // The lawn lies lower than the plaza: nobody floats, nobody sinks in.
 TEST(Occluders, WhoPassesStandsOnTheGroundThere) {
   for (const double plaza : {500.0, 10.0}) {

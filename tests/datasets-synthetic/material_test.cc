@@ -15,7 +15,7 @@ TEST_P(EachMaterial, LooksTheSameOnAverageFromAfar) {
   surface.material = GetParam();
   surface.seed = 42;
   surface.low_v = 0;
-  surface.high_v = 60;
+  surface.high_v = surface.coping_v = 60;
   surface.low_u = 0;
   surface.high_u = 100;
   constexpr double kSize = 20;  // feet
@@ -51,7 +51,7 @@ TEST(Tiles, JointsAreDarkAndFiveFeetApart) {
   Surface surface;
   surface.material = Material::kTile;
   surface.color = Rgb(0.74f, 0.74f, 0.72f);
-  surface.high_v = 60;
+  surface.high_v = surface.coping_v = 60;
   EXPECT_LT(AppearanceAt(surface, 15, 32.5, 0.01, 0.01).albedo[1], 0.25);
   EXPECT_LT(AppearanceAt(surface, 17.5, 35, 0.01, 0.01).albedo[1], 0.25);
   EXPECT_GT(AppearanceAt(surface, 16.2, 33.8, 0.01, 0.01).albedo[1], 0.5);
