@@ -14,7 +14,7 @@ namespace {
 
 // Differences of corrected colour (log units, mean over channels) that are ordinary: film grain,
 // resolution, a pixel of misregistration.
-constexpr float kOrdinaryDifference = 0.18f;
+constexpr float kOrdinaryDifference = 0.22f;
 // Squared differences beyond this many ordinary ones are all alike.
 constexpr float kLargestDissent = 9;
 // How much a colour that the wall does not have elsewhere counts against a view.
@@ -22,10 +22,10 @@ constexpr float kPaletteWeight = 0.5f;
 // How much a view of lower quality loses, for each e-fold.
 constexpr float kBlurWeight = 1;
 // Sun and cast shadows: how fast photographs with uneven light lose.
-constexpr double kEvenLightPreference = 4;
+constexpr double kEvenLightPreference = 2;
 
 // Views that differ less than this from the consensus agree with it.
-constexpr float kAgreeing = 1.5f;
+constexpr float kAgreeing = 1;
 // Where less than this share of the votes agrees, there is no majority.
 constexpr float kMajority = 0.34f;
 
