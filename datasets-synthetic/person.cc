@@ -38,16 +38,20 @@ class Figure {
     const bool has_long_coat = draws_.Chance(0.3);
     const bool has_skirt = !has_long_coat && draws_.Chance(0.25);
     const double stride = draws_.Chance(0.7) ? draws_.Uniform(0.35, 0.8) : draws_.Uniform(0, 0.1);
-    // A skirt or a long coat does not let the knees far apart.
-    const double knee_stride = has_skirt || has_long_coat ? std::min(stride, 0.3) : stride;
+    // A skirt or a long coat keeps the thighs together, well within it.
+    const bool is_draped = has_skirt || has_long_coat;
+    const double knee_stride = is_draped ? std::min(stride, 0.2) : stride;
+    const double hip_side = is_draped ? 0.19 : 0.27;
+    const double thigh = is_draped ? 0.26 : 0.36;
 
     for (const double side : {-1.0, 1.0}) {
       const double step = side * stride;
-      const Eigen::Vector3d hip = At(0, 0.27 * side, 3.05);
-      const Eigen::Vector3d knee = At(0.55 * side * knee_stride + 0.12, 0.26 * side, 1.65);
+      const Eigen::Vector3d hip = At(0, hip_side * side, 3.05);
+      const Eigen::Vector3d knee =
+          At(0.55 * side * knee_stride + 0.12, (hip_side - 0.01) * side, 1.65);
       const Eigen::Vector3d ankle = At(1.1 * step - 0.06, 0.24 * side, step < 0 ? 0.42 : 0.28);
-      Limb(hip, knee, 0.36, 0.25, has_skirt ? skin : below);
-      Limb(knee, ankle, 0.25, 0.16, has_skirt ? skin : below);
+      Limb(hip, knee, thigh, 0.7 * thigh, has_skirt ? skin : below);
+      Limb(knee, ankle, 0.7 * thigh, 0.15, has_skirt ? skin : below);
       // A shoe, whose heel has left the ground behind.
       Egg(ankle + size_ * (0.2 * ahead_ - Eigen::Vector3d(0, 0, 0.13)), 0.45, 0.17, 0.15, shoes);
       // Arms swing against the legs.
