@@ -12,8 +12,8 @@ namespace groundglass {
 
 // Borders between faces that meet there mix two colours in one pixel; borders where the farther
 // surface is hidden are worse, since an error of the camera moves one over the other. The first
-// kind counts as this much farther away: only the very pixel that mixes the two is not trusted.
-constexpr double kCreaseBonusPx = 1.25;
+// kind counts as this much farther away.
+constexpr double kCreaseBonusPx = 1.5;
 constexpr double kBorderStepsPerPx = 8;
 
 // For each pixel the distance (eighths of a pixel, at most 255) from its centre to the nearest

@@ -118,6 +118,24 @@ bool PreparedPhoto::IsPaintedBeside(const Eigen::Vector2d& image_px, int face) c
   return false;
 }
 
+Eigen::Vector2d PreparedPhoto::StepInside(const Eigen::Vector2d& image_px, int chart_index) const {
+  constexpr double kStep = 0.3;  // px: more loses what stands at the border, less shows both sides
+  const int x = static_cast<int>(image_px.x());
+  const int y = static_cast<int>(image_px.y());
+  int most = sight_map_.At(x, y).border;
+  Eigen::Vector2d step = Eigen::Vector2d::Zero();
+  for (int j = std::max(0, y - 1); j <= std::min(sight_map_.height() - 1, y + 1); ++j) {
+    for (int i = std::max(0, x - 1); i <= std::min(sight_map_.width() - 1, x + 1); ++i) {
+      const SightMap::Pixel pixel = sight_map_.At(i, j);
+      if (pixel.label == 0 || chart_of_face_[pixel.label - 1] != chart_index) continue;
+      if (pixel.border <= most) continue;
+      most = pixel.border;
+      step = Eigen::Vector2d(i - x, j - y);
+    }
+  }
+  return kStep * step;
+}
+
 std::optional<Sighting> PreparedPhoto::Sight(const ChartInCamera& view,
                                              const Eigen::Vector2d& plane_point,
                                              int face) const {
@@ -151,6 +169,9 @@ std::optional<Sighting> PreparedPhoto::Sight(const ChartInCamera& view,
     return std::nullopt;
   }
   sighting.border_px = is_own ? border_px : 0;  // 0 also half a pixel beside what was painted
+  if (is_own && border_px < 1 + kCreaseBonusPx) {
+    sighting.image_px += StepInside(*image_px, view.chart_index);
+  }
 
   // d(image) / d(point), through the distortion.
   const Eigen::Vector2d n = in_cam.hnormalized();

@@ -77,6 +77,10 @@ class PreparedPhoto {
   // painted with its number.
   bool IsPaintedBeside(const Eigen::Vector2d& image_px, int face) const;
 
+  // From a pixel beside a border a little towards the neighbour that is farthest from it: the pixel
+  // itself is mixed of both sides.
+  Eigen::Vector2d StepInside(const Eigen::Vector2d& image_px, int chart_index) const;
+
   const Visibility& visibility_;
   const std::vector<int>& chart_of_face_;
   PhotoCache& cache_;
