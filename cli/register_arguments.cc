@@ -5,6 +5,7 @@
 #include "register/control_points.h"
 #include "register/registration_output.h"
 #include "register/select_photographs.h"
+#include "scene/frames.h"
 #include "scene/image_io.h"
 #include "viewer/overlay.h"
 
@@ -175,15 +176,16 @@ Manifest DescribeInputs(const std::string& command,
   return manifest;
 }
 
-std::vector<Registration> RegisterAndWrite(const Scene& scene,
-                                           const RegisterArguments& arguments,
-                                           const CommonOptions& common) {
+RegisteredScene RegisterAndWrite(const Scene& scene,
+                                 const RegisterArguments& arguments,
+                                 const CommonOptions& common) {
   std::optional<Lens> lens;
   if (arguments.lens_file) lens = ReadLens(*arguments.lens_file);
   RegisterOptions options = arguments.options;
   if (arguments.points_file) options.control_points = ReadControlPoints(*arguments.points_file);
-  const std::vector<Registration> registrations =
+  RegisteredScene registered =
       RegisterScene(scene, lens, options, MakeProgress(common, "registering"));
+  const std::vector<Registration>& registrations = registered.registrations;
 
   const Progress progress = MakeProgress(common, "drawing overlays");
   const std::vector<ModelEdge> edges = FindModelEdges(scene.model);
@@ -208,8 +210,8 @@ std::vector<Registration> RegisterAndWrite(const Scene& scene,
     if (progress) progress(done, total, registration.name);
   });
   // Last, because its being there says that the stage is complete.
-  WriteRegistrationOutput(scene, registrations, arguments.out_folder);
-  return registrations;
+  WriteRegistrationOutput(scene, registered, arguments.out_folder);
+  return registered;
 }
 
 void PrintRegistrations(const std::vector<Registration>& registrations) {
@@ -232,6 +234,24 @@ void PrintRegistrations(const std::vector<Registration>& registrations) {
                 registration.rms_px,
                 registration.score_nats,
                 reasons.c_str());
+  }
+}
+
+void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit unit) {
+  if (model_errors.empty()) return;
+  const char* unit_name = unit == LengthUnit::kFoot ? "ft" : "m";
+  std::printf(
+      "\nThe photographs see these lines of the model elsewhere (x east, y south, z up):\n");
+  for (const ModelError& error : model_errors) {
+    const Eigen::Vector3d offset_in_site = SiteFromWorld(error.offset_in_world);
+    std::printf("%-40s off by %+.2f %+.2f %+.2f %s, +-%.2f, in %d photographs\n",
+                error.name.c_str(),
+                offset_in_site.x(),
+                offset_in_site.y(),
+                offset_in_site.z(),
+                unit_name,
+                error.sigma,
+                error.num_photographs);
   }
 }
 

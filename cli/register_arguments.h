@@ -38,13 +38,15 @@ Manifest DescribeInputs(const std::string& command,
                         const RegisterArguments& arguments,
                         const CommonOptions& common);
 
-// Registers every photograph and writes views/, registration.json, cameras/ and overlays/.
-std::vector<Registration> RegisterAndWrite(const Scene& scene,
-                                           const RegisterArguments& arguments,
-                                           const CommonOptions& common);
+// Registers the scene and writes views/, registration.json, cameras/ and overlays/.
+RegisteredScene RegisterAndWrite(const Scene& scene,
+                                 const RegisterArguments& arguments,
+                                 const CommonOptions& common);
 
 // The table that a person reads: verdict, how far the picture moved, score, reasons.
 void PrintRegistrations(const std::vector<Registration>& registrations);
+// The lines of the model that are off, if any, in `site`.
+void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit unit);
 
 // 0 if all were accepted, else 3.
 int ExitStatusOf(const std::vector<Registration>& registrations);

@@ -33,14 +33,15 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
       PrepareOutputFolder(registering.out_folder);
       WriteManifest(registering.out_folder,
                     DescribeInputs("register", scene, registering, arguments->common));
-      const std::vector<Registration> registrations =
-          RegisterAndWrite(scene, registering, arguments->common);
+      const RegisteredScene registered = RegisterAndWrite(scene, registering, arguments->common);
       if (arguments->common.json) {
-        std::printf("%s", FormatRegistrations(registrations).c_str());
+        std::printf("%s",
+                    FormatRegistrations(registered.registrations, registered.model_errors).c_str());
       } else {
-        PrintRegistrations(registrations);
+        PrintRegistrations(registered.registrations);
+        PrintModelErrors(registered.model_errors, scene.model.unit);
       }
-      return ExitStatusOf(registrations);
+      return ExitStatusOf(registered.registrations);
     });
   });
 }

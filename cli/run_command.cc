@@ -75,9 +75,11 @@ int Run(const RunArguments& arguments) {
     return kExitDone;
   }
   PrepareOutputFolder(out);
-  std::vector<Registration> registrations;
+  RegisteredScene registered;
+  const std::vector<Registration>& registrations = registered.registrations;
   if (CanResume(out, manifest)) {
-    registrations = ReadRegistrations(out / "registration.json");
+    registered = {ReadRegistrations(out / "registration.json"),
+                  ReadModelErrors(out / "registration.json")};
     if (!common.quiet) std::fprintf(stderr, "keeping the tags that are there already\n");
   } else {
     // What another run left would be taken for this one's if it were stopped half way.
@@ -85,9 +87,12 @@ int Run(const RunArguments& arguments) {
       std::filesystem::remove(out / stale);
     }
     WriteManifest(out, manifest);
-    registrations = RegisterAndWrite(scene, registering, common);
+    registered = RegisterAndWrite(scene, registering, common);
   }
-  if (!common.json) PrintRegistrations(registrations);
+  if (!common.json) {
+    PrintRegistrations(registrations);
+    PrintModelErrors(registered.model_errors, scene.model.unit);
+  }
 
   std::vector<BakePhotograph> photographs =
       SelectPhotographs(scene, registrations, arguments.baking.accepted_only);
@@ -111,7 +116,7 @@ int Run(const RunArguments& arguments) {
   WriteFileAtomically(out / "report.html", FormatReport(out, &scene));
 
   if (common.json) {
-    std::printf("%s", FormatRegistrations(registrations).c_str());
+    std::printf("%s", FormatRegistrations(registrations, registered.model_errors).c_str());
   } else {
     std::printf(
         "\ncorrected tags   %s\noverlays         %s\ntextured model   %s\n"

@@ -130,7 +130,7 @@ std::vector<Trial> RunTrials(const Scene& scene,
       blunder_of_name[written[i].name] = blunders[i];
     }
     const std::vector<Registration> registrations =
-        RegisterScene(notebook_scene, std::nullopt, options.registration, {});
+        RegisterScene(notebook_scene, std::nullopt, options.registration, {}).registrations;
     for (const Registration& registration : registrations) {
       const Camera& true_camera = true_camera_of_name.at(registration.name);
       const double to_640 = 640.0 / true_camera.width_px;

@@ -61,6 +61,7 @@ class JointSolver {
               const JointOptions& options)
       : photographs_(photographs),
         options_(options),
+        own_bias_(options.own),
         units_per_metre_(1 / MetresPerUnit(edge_model.model.unit)),
         edges_(edge_model.edges.size()) {
     const LensParameters own_shares(
@@ -113,6 +114,12 @@ class JointSolver {
       double* block = edge.displacement.data();
       if (!problem_->HasParameterBlock(block)) continue;
       problem_->AddResidualBlock(new StandardNormalCost<4>, new ceres::CauchyLoss(1), block);
+      // Tails end somewhere: no building is off by a room.
+      const double widest = options_.widest_offset_m / options_.common_offset_m;
+      problem_->AddResidualBlock(
+          new StandardNormalCost<4>,
+          new ceres::ScaledLoss(nullptr, 1 / (widest * widest), ceres::TAKE_OWNERSHIP),
+          block);
       ordering->AddElementToGroup(block, 0);
     }
     for (MovingPhotograph& moving : moving_) {
@@ -134,6 +141,10 @@ class JointSolver {
     ceres::Solve(solver, problem_.get(), &summary);
   }
 
+  // Where edges were found farther from the model, more may also be hidden that moves all edges
+  // together: takes its size from them.
+  void EstimateSharedOffset();
+
   JointRefinement Result();
 
  private:
@@ -142,6 +153,7 @@ class JointSolver {
 
   const std::vector<AlignedPhotograph>& photographs_;
   const JointOptions& options_;
+  EdgeBias own_bias_;
   double units_per_metre_;
   std::vector<MovingPhotograph> moving_;
   std::vector<LensParameters> lenses_;
@@ -190,7 +202,7 @@ void JointSolver::MatchPhotograph(size_t p, double range_px) {
       const SoftMatch match =
           MatchCandidates(sample, predicted_px, range_px, moving.noise_px, options_.matching);
       if (!(match.precision > 0)) continue;
-      run.samples.push_back(MakeAlignedSample(sample, match, units_per_metre_, options_.own));
+      run.samples.push_back(MakeAlignedSample(sample, match, units_per_metre_, own_bias_));
       residuals.push_back({std::abs(match.offset_px - predicted_px), match.precision});
     }
     start = end;
@@ -202,6 +214,19 @@ void JointSolver::MatchPhotograph(size_t p, double range_px) {
   moving.noise_px = std::clamp(1.4826 * WeightedMedian(std::move(residuals), 1),
                                options_.min_noise_px,
                                options_.matching.final_range_px / 2);
+}
+
+void JointSolver::EstimateSharedOffset() {
+  std::vector<double> offsets_m;
+  for (const MovingEdge& edge : edges_) {
+    if (edge.num_photographs < 2) continue;
+    offsets_m.push_back(edge.frame.Displacement(edge.displacement, 0).norm() / units_per_metre_);
+  }
+  if (offsets_m.empty()) return;
+  const auto quartile = offsets_m.begin() + static_cast<std::ptrdiff_t>(offsets_m.size() * 3 / 4);
+  std::nth_element(offsets_m.begin(), quartile, offsets_m.end());
+  own_bias_.shared_offset_m =
+      std::clamp(*quartile, options_.least_shared_offset_m, options_.most_shared_offset_m);
 }
 
 JointRefinement JointSolver::Result() {
@@ -302,6 +327,7 @@ JointRefinement RefineTogether(const EdgeModel& edge_model,
   if (photographs.empty()) return {};
   JointSolver solver(edge_model, photographs, lenses, options);
   for (int round = 0; round < options.num_rounds; ++round) {
+    if (round + 1 == options.num_rounds) solver.EstimateSharedOffset();
     solver.Match(std::max(options.matching.final_range_px,
                           options.start_range_px * std::pow(options.shrink, round)));
     solver.Solve();

@@ -27,8 +27,12 @@ struct JointOptions {
   // edges are where the model has them and a few are far away.
   double common_offset_m = 0.03;
   double common_turn_m = 0.03;
+  double widest_offset_m = 0.3;  // one sigma of a normal distribution that ends the tails
   // What is seen of an edge in one photograph only (light, blur, a joint on its sunny side).
+  // Its shared part is found: the upper quartile of the displacements, between these.
   EdgeBias own = {0.012, 0.012, 0.03};
+  double least_shared_offset_m = 0.01;
+  double most_shared_offset_m = 0.05;
   // The part of a prior's variance that is the photograph's own; the rest is its lens', and the
   // same for all photographs of that lens. Slides have a scale and an aspect of their own.
   double own_k1_share = 0.001;

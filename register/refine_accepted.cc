@@ -25,14 +25,14 @@ LensKey LensKeyOf(const Registration& registration) {
 std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
                                              const RegisterOptions& options,
                                              std::vector<PhotographAlignment>& alignments) {
-  std::vector<Registration*> registrations;
+  std::vector<PhotographAlignment*> together;
   std::vector<AlignedPhotograph> photographs;
   std::vector<int> lenses;
   std::map<LensKey, int> lens_of_key;
   for (PhotographAlignment& alignment : alignments) {
     if (alignment.registration.verdict != Verdict::kAccepted) continue;
     if (alignment.aligned.found.empty()) continue;
-    registrations.push_back(&alignment.registration);
+    together.push_back(&alignment);
     photographs.push_back(std::move(alignment.aligned));
     const int next = static_cast<int>(lens_of_key.size());
     lenses.push_back(lens_of_key.emplace(LensKeyOf(alignment.registration), next).first->second);
@@ -41,18 +41,20 @@ std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
   const JointRefinement joint = RefineTogether(edge_model, photographs, lenses, options.joint);
   for (size_t i = 0; i < photographs.size(); ++i) {
     const AlignedPhotograph& photograph = photographs[i];
+    Registration& registration = together[i]->registration;
+    together[i]->is_refined_together = true;
     std::vector<Eigen::Vector3d> points_in_world;
     for (const CandidateSample& found : photograph.found) {
       points_in_world.push_back(found.sample.point_in_world);
     }
     WriteSolution(joint.photographs[i],
                   photograph.prior,
+                  edge_model.model,
                   points_in_world,
                   photograph.width_px,
                   photograph.height_px,
-                  *registrations[i]);
-    JudgeChange(joint.photographs[i].whitened, photograph.prior, options, *registrations[i]);
-    OverruleVerdict(options.overrule, *registrations[i]);
+                  registration);
+    JudgeChange(joint.photographs[i].whitened, photograph.prior, options, registration);
   }
   return joint.displacements;
 }

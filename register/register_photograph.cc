@@ -95,7 +95,6 @@ PhotographAlignment AlignPhotograph(const std::string& name,
   if (start_samples.size() < 10) {
     registration.reasons.push_back("the measured tag sees almost nothing of the model");
     registration.covariance = prior.root * prior.root.transpose();
-    OverruleVerdict(options.overrule, registration);
     return alignment;
   }
   std::vector<Hypothesis> hypotheses = {{}};  // the tag itself
@@ -155,6 +154,7 @@ PhotographAlignment AlignPhotograph(const std::string& name,
                  best.refinement.noise_px,
                  best.refinement.num_matched},
                 prior,
+                edge_model.model,
                 best_points,
                 width_px,
                 height_px,
@@ -178,9 +178,18 @@ PhotographAlignment AlignPhotograph(const std::string& name,
                          best.refinement.whitened,
                          best.refinement.noise_px};
   }
-  OverruleVerdict(options.overrule, registration);
-  if (registration.verdict == Verdict::kRejected) registration.corrected = measured;
   return alignment;
+}
+
+void FinishVerdict(const RegisterOptions& options, PhotographAlignment& alignment) {
+  Registration& registration = alignment.registration;
+  if (registration.verdict != Verdict::kRejected) {
+    JudgeCertainty(alignment.is_refined_together ? options.max_vertex_sigma_px
+                                                 : options.max_lone_vertex_sigma_px,
+                   registration);
+  }
+  OverruleVerdict(options.overrule, registration);
+  if (registration.verdict == Verdict::kRejected) registration.corrected = registration.measured;
 }
 
 Registration RegisterPhotograph(const std::string& name,
@@ -190,7 +199,10 @@ Registration RegisterPhotograph(const std::string& name,
                                 const std::optional<Lens>& lens,
                                 const EdgeModel& edge_model,
                                 const RegisterOptions& options) {
-  return AlignPhotograph(name, grey8, ignore, measured, lens, edge_model, options).registration;
+  PhotographAlignment alignment =
+      AlignPhotograph(name, grey8, ignore, measured, lens, edge_model, options);
+  FinishVerdict(options, alignment);
+  return std::move(alignment.registration);
 }
 
 }  // namespace groundglass

@@ -7,6 +7,7 @@
 #include "register/edge_samples.h"
 #include "register/hypotheses.h"
 #include "register/joint_refinement.h"
+#include "register/model_errors.h"
 #include "register/overrule.h"
 #include "register/refine.h"
 #include "register/score.h"
@@ -26,6 +27,7 @@ struct RegisterOptions {
   RefineOptions refine;
   ScoreOptions score;
   JointOptions joint;
+  ModelErrorOptions model_errors;
   // Each photograph by itself; else those that are accepted are refined together.
   bool independent = false;
 
@@ -45,6 +47,11 @@ struct RegisterOptions {
   // degrees of freedom; 99.9 % lie below).
   double max_prior_chi_squared = 31.3;
 
+  // Nor may the model's points be known worse than this, px at a width of 640. A photograph that
+  // stays alone cannot tell how good the model is, and what it claims assumes a rough one.
+  double max_vertex_sigma_px = 1.5;
+  double max_lone_vertex_sigma_px = 2;
+
   // Places that a person has recognised, of all photographs, in pixels of theirs. None may end
   // further than this from where the camera sees it, in the point's sigmas.
   std::vector<ControlPoint> control_points;
@@ -56,10 +63,12 @@ struct RegisterOptions {
   void Check() const;  // throws Error naming the first field out of range
 };
 
-// A photograph that was registered by itself, with what refining it together with others needs.
+// A photograph that was aligned by itself, with what refining it together with others needs. Its
+// verdict does not heed yet how certain the camera is (FinishVerdict).
 struct PhotographAlignment {
   Registration registration;
-  AlignedPhotograph aligned;  // empty unless the verdict is `accepted`
+  AlignedPhotograph aligned;         // empty unless the verdict is `accepted`
+  bool is_refined_together = false;  // with others (RefineAccepted)
 };
 
 // Corrects one photograph's tag against the model's edges.
@@ -73,7 +82,10 @@ PhotographAlignment AlignPhotograph(const std::string& name,
                                     const EdgeModel& edge_model,
                                     const RegisterOptions& options);
 
-// AlignPhotograph for a photograph that stays alone.
+// The last word on a photograph: `review` where it stays uncertain, and what a person decides.
+void FinishVerdict(const RegisterOptions& options, PhotographAlignment& alignment);
+
+// AlignPhotograph for a photograph that stays alone, with its verdict finished.
 Registration RegisterPhotograph(const std::string& name,
                                 const Image8& grey8,
                                 const Image8& ignore,

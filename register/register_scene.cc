@@ -30,10 +30,10 @@ Image8 ReadIgnoreMask(const Photograph& photograph) {
 
 }  // namespace
 
-std::vector<Registration> RegisterScene(const Scene& scene,
-                                        const std::optional<Lens>& lens,
-                                        const RegisterOptions& options,
-                                        const Progress& progress) {
+RegisteredScene RegisterScene(const Scene& scene,
+                              const std::optional<Lens>& lens,
+                              const RegisterOptions& options,
+                              const Progress& progress) {
   options.Check();
   const EdgeModel edge_model(scene.model);
   const int total = static_cast<int>(scene.photographs.size());
@@ -58,12 +58,16 @@ std::vector<Registration> RegisterScene(const Scene& scene,
           photograph.name + " " + std::string(VerdictName(alignments[index].registration.verdict)));
     }
   });
-  if (!options.independent) RefineAccepted(edge_model, options, alignments);
-  std::vector<Registration> registrations;
-  for (PhotographAlignment& alignment : alignments) {
-    registrations.push_back(std::move(alignment.registration));
+  RegisteredScene registered;
+  if (!options.independent) {
+    registered.model_errors = FindModelErrors(
+        edge_model, RefineAccepted(edge_model, options, alignments), options.model_errors);
   }
-  return registrations;
+  for (PhotographAlignment& alignment : alignments) {
+    FinishVerdict(options, alignment);
+    registered.registrations.push_back(std::move(alignment.registration));
+  }
+  return registered;
 }
 
 }  // namespace groundglass

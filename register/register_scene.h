@@ -13,11 +13,17 @@
 
 namespace groundglass {
 
-// Corrects the tags of a scene's photographs, each by itself, on every core; results in the
-// scene's order, the same whatever the number of threads. Reads the photographs and their masks.
-std::vector<Registration> RegisterScene(const Scene& scene,
-                                        const std::optional<Lens>& lens,
-                                        const RegisterOptions& options,
-                                        const Progress& progress);
+struct RegisteredScene {
+  std::vector<Registration> registrations;  // in the scene's order
+  std::vector<ModelError> model_errors;     // none if the photographs stay alone
+};
+
+// Corrects the tags of a scene's photographs, on every core: each by itself, then those that are
+// accepted together (RefineAccepted), unless options.independent. The same whatever the number of
+// threads. Reads the photographs and their masks.
+RegisteredScene RegisterScene(const Scene& scene,
+                              const std::optional<Lens>& lens,
+                              const RegisterOptions& options,
+                              const Progress& progress);
 
 }  // namespace groundglass

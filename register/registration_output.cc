@@ -10,8 +10,9 @@
 namespace groundglass {
 
 void WriteRegistrationOutput(const Scene& scene,
-                             const std::vector<Registration>& registrations,
+                             const RegisteredScene& registered,
                              const std::filesystem::path& out) {
+  const std::vector<Registration>& registrations = registered.registrations;
   std::vector<NamedCamera> cameras;
   for (size_t i = 0; i < registrations.size(); ++i) {
     const Registration& registration = registrations[i];
@@ -29,7 +30,8 @@ void WriteRegistrationOutput(const Scene& scene,
     cameras.push_back({photograph.image_file.filename().string(), registration.CorrectedCamera()});
   }
   WriteColmapModel(out / "cameras", cameras);
-  WriteFileAtomically(out / "registration.json", FormatRegistrations(registrations));
+  WriteFileAtomically(out / "registration.json",
+                      FormatRegistrations(registrations, registered.model_errors));
 }
 
 }  // namespace groundglass

@@ -2,11 +2,10 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/registration.h"
+#include "register/register_scene.h"
 #include "scene/scene_folder.h"
 
 #include <filesystem>
-#include <vector>
 
 namespace groundglass {
 
@@ -14,7 +13,7 @@ namespace groundglass {
 // with their numbers corrected in place; a rejected photograph's stays as it was measured),
 // registration.json, and cameras/ (COLMAP text model of all photographs, in `world`).
 void WriteRegistrationOutput(const Scene& scene,
-                             const std::vector<Registration>& registrations,
+                             const RegisteredScene& registered,
                              const std::filesystem::path& out);
 
 }  // namespace groundglass

@@ -16,6 +16,20 @@ std::string Format(const char* format, Args... args) {
   return text;
 }
 
+// The parameter that the photograph narrowed least.
+std::string LeastCertain(const Registration& registration) {
+  int least = 0;
+  double largest_share = -1;
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (!(registration.prior_sigmas[i] > 0)) continue;
+    const double share = registration.sigmas[i] / registration.prior_sigmas[i];
+    if (share <= largest_share) continue;
+    largest_share = share;
+    least = i;
+  }
+  return std::string(kCameraParameterNames[least]);
+}
+
 void LowerTo(Verdict verdict, const std::string& reason, Registration& registration) {
   registration.verdict = std::max(registration.verdict, verdict);
   registration.reasons.push_back(reason);
@@ -88,6 +102,17 @@ void JudgeChange(const CameraParameters& whitened,
                      sigmas),
               registration);
     }
+  }
+}
+
+void JudgeCertainty(double max_vertex_sigma_px, Registration& registration) {
+  const double to_640 = 640.0 / registration.width_px;
+  if (registration.vertex_sigma_px * to_640 > max_vertex_sigma_px) {
+    LowerTo(Verdict::kReview,
+            Format("the model's points are known to %.1f px only; %s is the least certain",
+                   registration.vertex_sigma_px,
+                   LeastCertain(registration).c_str()),
+            registration);
   }
 }
 

@@ -36,4 +36,8 @@ void JudgeChange(const CameraParameters& whitened,
                  const RegisterOptions& options,
                  Registration& registration);
 
+// Adds `review` where the model's points stay less certain than this, px at a width of 640. The
+// last to judge: other photographs may have made them certain.
+void JudgeCertainty(double max_vertex_sigma_px, Registration& registration);
+
 }  // namespace groundglass

@@ -2,6 +2,9 @@
 // Part of Groundglass.
 #include "register/write_solution.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace groundglass {
 
 double MeanDisplacementPx(const std::vector<Eigen::Vector3d>& points_in_world,
@@ -19,8 +22,33 @@ double MeanDisplacementPx(const std::vector<Eigen::Vector3d>& points_in_world,
   return count ? sum / count : 0;
 }
 
+namespace {
+
+double VertexSigmaPx(const PolygonModel& model,
+                     const ParameterProjection& projection,
+                     const CameraCovariance& covariance,
+                     int width_px,
+                     int height_px) {
+  double sum = 0;
+  int count = 0;
+  for (const Eigen::Vector3d& point : model.points_in_world) {
+    const auto projected = projection.Project(point);
+    if (!projected) continue;
+    const Eigen::Vector2d& at = projected->image_px;
+    if (at.x() < 0 || at.y() < 0 || at.x() > width_px || at.y() > height_px) continue;
+    const Eigen::Matrix2d spread =
+        projected->jacobian * covariance * projected->jacobian.transpose();
+    sum += std::sqrt(std::max(0.0, spread.trace()));
+    ++count;
+  }
+  return count ? sum / count : 0;
+}
+
+}  // namespace
+
 void WriteSolution(const JointSolution& solution,
                    const CameraPrior& prior,
+                   const PolygonModel& model,
                    const std::vector<Eigen::Vector3d>& points_in_world,
                    int width_px,
                    int height_px,
@@ -28,6 +56,7 @@ void WriteSolution(const JointSolution& solution,
   const CameraParameters parameters = prior.mean + prior.root * solution.whitened;
   const double to_photograph = static_cast<double>(registration.width_px) / width_px;
   const double k2 = registration.measured.k2;
+  const ParameterProjection projection(parameters, k2, width_px, height_px);
   registration.corrected = TagFromParameters(parameters, registration.measured);
   registration.covariance = prior.root * solution.covariance * prior.root.transpose();
   registration.sigmas = registration.covariance.diagonal().cwiseMax(0).cwiseSqrt();
@@ -36,7 +65,10 @@ void WriteSolution(const JointSolution& solution,
   registration.moved_px =
       to_photograph * MeanDisplacementPx(points_in_world,
                                          ParameterProjection(prior.mean, k2, width_px, height_px),
-                                         ParameterProjection(parameters, k2, width_px, height_px));
+                                         projection);
+  registration.vertex_sigma_px =
+      to_photograph *
+      VertexSigmaPx(model, projection, registration.covariance, width_px, height_px);
 }
 
 }  // namespace groundglass

@@ -4,6 +4,7 @@
 
 #include "register/joint_refinement.h"
 #include "register/parameter_projection.h"
+#include "scene/polygon_model.h"
 #include "scene/registration.h"
 
 #include <Eigen/Dense>
@@ -17,12 +18,13 @@ double MeanDisplacementPx(const std::vector<Eigen::Vector3d>& points_in_world,
                           const ParameterProjection& one,
                           const ParameterProjection& other);
 
-// Writes a solution into a registration: the corrected tag, covariance, residuals, and how far
-// points that the photograph shows have moved. solution: found on a picture of width_px x
-// height_px, of which the registration's own size is a multiple; the registration has its sizes and
-// its measured tag.
+// Writes a solution into a registration: the corrected tag, covariance, residuals, how far points
+// that the photograph shows have moved, and how well the model's points are known. solution: found
+// on a picture of width_px x height_px, of which the registration's own size is a multiple; the
+// registration has its sizes and its measured tag.
 void WriteSolution(const JointSolution& solution,
                    const CameraPrior& prior,
+                   const PolygonModel& model,
                    const std::vector<Eigen::Vector3d>& points_in_world,
                    int width_px,
                    int height_px,

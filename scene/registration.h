@@ -53,9 +53,23 @@ struct Registration {
   double score_nats = 0;                  // above zero: better than chance
   double margin_nats = 0;                 // over the best rival
   double moved_px = 0;  // mean displacement of the model's visible edges by the correction
+  // What is left uncertain: one standard deviation of where the model's points are seen, the mean
+  // over those in the frame, hidden ones included.
+  double vertex_sigma_px = 0;
 
   Camera MeasuredCamera() const { return CameraFromTag(measured, width_px, height_px); }
   Camera CorrectedCamera() const { return CameraFromTag(corrected, width_px, height_px); }
+};
+
+// A line of the model that the photographs agree to see elsewhere: a cornice that the plan has too
+// low, a wall that was built next to where it was drawn.
+struct ModelError {
+  std::string name;  // the faces that the line borders: "east wall / roof"
+  Eigen::Vector3d start_in_world = Eigen::Vector3d::Zero();  // as the model has it, its unit
+  Eigen::Vector3d end_in_world = Eigen::Vector3d::Zero();
+  Eigen::Vector3d offset_in_world = Eigen::Vector3d::Zero();  // to where it is, at its middle
+  double sigma = 0;         // one standard deviation of the offset's length, model's unit
+  int num_photographs = 0;  // that show the line
 };
 
 }  // namespace groundglass

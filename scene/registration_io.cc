@@ -3,6 +3,7 @@
 #include "scene/registration_io.h"
 
 #include "scene/error.h"
+#include "scene/frames.h"
 #include "scene/view_io.h"
 
 #include <nlohmann/json.hpp>
@@ -102,6 +103,7 @@ Json JsonFromRegistration(const Registration& registration) {
   json["score_nats"] = registration.score_nats;
   json["margin_nats"] = registration.margin_nats;
   json["moved_px"] = registration.moved_px;
+  json["vertex_sigma_px"] = registration.vertex_sigma_px;
   return json;
 }
 
@@ -137,27 +139,36 @@ Registration RegistrationFromJson(const Json& json) {
   registration.score_nats = json.at("score_nats").get<double>();
   registration.margin_nats = json.at("margin_nats").get<double>();
   registration.moved_px = json.at("moved_px").get<double>();
+  registration.vertex_sigma_px = json.at("vertex_sigma_px").get<double>();
   return registration;
 }
 
-}  // namespace
-
-std::string FormatRegistrations(const std::vector<Registration>& registrations) {
-  Json document;
-  document["photographs"] = Json::array();
-  for (const Registration& registration : registrations) {
-    document["photographs"].push_back(JsonFromRegistration(registration));
-  }
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+Json JsonFromSite(const Eigen::Vector3d& in_world) {
+  const Eigen::Vector3d in_site = SiteFromWorld(in_world);
+  return {in_site.x(), in_site.y(), in_site.z()};
 }
 
-std::vector<Registration> ReadRegistrations(const std::filesystem::path& file) {
-  std::vector<Registration> registrations;
+Eigen::Vector3d WorldFromJson(const Json& json) {
+  return WorldFromSite(
+      {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()});
+}
+
+Json JsonFromModelError(const ModelError& error) {
+  Json json;
+  json["name"] = error.name;
+  json["start"] = JsonFromSite(error.start_in_world);
+  json["end"] = JsonFromSite(error.end_in_world);
+  json["offset"] = JsonFromSite(error.offset_in_world);
+  json["sigma"] = error.sigma;
+  json["num_photographs"] = error.num_photographs;
+  return json;
+}
+
+// What `read` makes of the file's JSON; errors name the file, in one line.
+template <typename Read>
+auto ReadDocument(const std::filesystem::path& file, Read read) {
   try {
-    const Json document = Json::parse(ReadTextFile(file));
-    for (const Json& json : document.at("photographs")) {
-      registrations.push_back(RegistrationFromJson(json));
-    }
+    return read(Json::parse(ReadTextFile(file)));
   } catch (const Json::exception& error) {
     throw Error(file, std::string("not a registration file: ") + error.what());
   } catch (const Error& error) {
@@ -165,7 +176,47 @@ std::vector<Registration> ReadRegistrations(const std::filesystem::path& file) {
     if (message.starts_with(file.string())) throw;
     throw Error(file, message);
   }
-  return registrations;
+}
+
+}  // namespace
+
+std::string FormatRegistrations(const std::vector<Registration>& registrations,
+                                const std::vector<ModelError>& model_errors) {
+  Json document;
+  document["photographs"] = Json::array();
+  for (const Registration& registration : registrations) {
+    document["photographs"].push_back(JsonFromRegistration(registration));
+  }
+  document["model_errors"] = Json::array();
+  for (const ModelError& error : model_errors) {
+    document["model_errors"].push_back(JsonFromModelError(error));
+  }
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<Registration> ReadRegistrations(const std::filesystem::path& file) {
+  return ReadDocument(file, [](const Json& document) {
+    std::vector<Registration> registrations;
+    for (const Json& json : document.at("photographs")) {
+      registrations.push_back(RegistrationFromJson(json));
+    }
+    return registrations;
+  });
+}
+
+std::vector<ModelError> ReadModelErrors(const std::filesystem::path& file) {
+  return ReadDocument(file, [](const Json& document) {
+    std::vector<ModelError> errors;
+    for (const Json& json : document.value("model_errors", Json::array())) {
+      errors.push_back({json.at("name").get<std::string>(),
+                        WorldFromJson(json.at("start")),
+                        WorldFromJson(json.at("end")),
+                        WorldFromJson(json.at("offset")),
+                        json.at("sigma").get<double>(),
+                        json.at("num_photographs").get<int>()});
+    }
+    return errors;
+  });
 }
 
 }  // namespace groundglass

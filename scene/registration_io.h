@@ -11,7 +11,10 @@
 namespace groundglass {
 
 // registration.json (docs/registration-json.md).
-std::string FormatRegistrations(const std::vector<Registration>& registrations);
+std::string FormatRegistrations(const std::vector<Registration>& registrations,
+                                const std::vector<ModelError>& model_errors = {});
 std::vector<Registration> ReadRegistrations(const std::filesystem::path& file);
+// None where the file says nothing of them.
+std::vector<ModelError> ReadModelErrors(const std::filesystem::path& file);
 
 }  // namespace groundglass

@@ -10,13 +10,13 @@
 #include "scene/visibility.h"
 #include "viewer/overlay.h"
 #include "viewer/report_html.h"
+#include "viewer/report_sections.h"
 #include "viewer/report_style.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -27,8 +27,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr size_t kManyPhotographs = 40;
-// A face of which less than this is seen is pointed out.
-constexpr double kWellCovered = 0.5;
 
 std::optional<Json> ReadJsonIfThere(const fs::path& file) {
   if (!fs::exists(file)) return std::nullopt;
@@ -63,17 +61,10 @@ std::string UnitName(const Scene* scene) {
   return scene->model.unit == LengthUnit::kFoot ? " ft" : " m";
 }
 
-std::string Plural(size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 std::string VerdictCell(Verdict verdict) {
   const std::string name(VerdictName(verdict));
   return "<span class=\"verdict " + name + "\">" + name + "</span>";
 }
-
-std::string TextCell(const std::string& html) { return "<td>" + html + "</td>"; }
-std::string NumberCell(const std::string& html) { return "<td class=\"n\">" + html + "</td>"; }
 
 class Report {
  public:
@@ -81,6 +72,7 @@ class Report {
       : folder_(folder), scene_(scene), options_(options) {
     if (fs::exists(folder / "registration.json")) {
       registrations_ = ReadRegistrations(folder / "registration.json");
+      model_errors_ = ReadModelErrors(folder / "registration.json");
     }
     coverage_ = ReadJsonIfThere(folder / "coverage.json");
     manifest_ = ReadJsonIfThere(folder / "manifest.json");
@@ -100,7 +92,8 @@ class Report {
     AddHeading();
     AddNewViews();
     if (registrations_) AddPhotographTable();
-    if (coverage_) AddCoverage();
+    if (coverage_) body_ += FormatCoverageSection(*coverage_, UnitName(scene_));
+    body_ += FormatModelErrorSection(model_errors_, UnitName(scene_));
     if (registrations_) AddPhotographs();
     AddFooter();
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -202,71 +195,6 @@ class Report {
                NumberCell(std::to_string(registration.num_samples)) + TextCell(remarks) + "</tr>\n";
     }
     body_ += "</tbody></table>\n";
-  }
-
-  void AddCoverage() {
-    const Json faces = coverage_->value("faces", Json::array());
-    size_t num_missing = 0;
-    for (const Json& face : faces) {
-      if (FaceShare(face) < kWellCovered) ++num_missing;
-    }
-    body_ += "<h2>Coverage</h2>\n<p>How much of each of the model\u2019s " +
-             Plural(faces.size(), "face") + " the photographs show. ";
-    if (num_missing == 0) {
-      body_ += "Every face is seen by half or more.</p>\n";
-    } else {
-      body_ += Plural(num_missing, "face") + (num_missing == 1 ? " is" : " are") +
-               " seen by less than half: a photograph from there would help.</p>\n";
-      AddFaceTable(faces, [](double share) { return share < kWellCovered; });
-    }
-    body_ += "<details><summary>All faces</summary>\n";
-    AddFaceTable(faces, [](double) { return true; });
-    body_ += "</details>\n";
-  }
-
-  void AddFaceTable(const Json& faces, const std::function<bool(double)>& is_wanted) {
-    const std::string unit = UnitName(scene_);
-    body_ += "<table><thead><tr><th class=\"n\">Face</th><th>Name</th><th class=\"n\">Area," +
-             unit + "\u00b2</th><th class=\"n\">Seen</th><th></th><th class=\"n\">Texel," + unit +
-             "</th><th>From</th></tr></thead><tbody>\n";
-    for (const Json& face : faces) {
-      if (is_wanted(FaceShare(face))) AddFaceRow(face);
-    }
-    body_ += "</tbody></table>\n";
-  }
-
-  static double FaceShare(const Json& face) {
-    const double area = face.value("area", 0.0);
-    return area > 0 ? face.value("covered_area", 0.0) / area : 0;
-  }
-
-  void AddFaceRow(const Json& face) {
-    const double share = FaceShare(face);
-    const double texels = face.value("covered_texels", 0.0);
-    std::string from;
-    size_t num_left_out = 0;
-    for (const Json& source : face.value("sources", Json::array())) {
-      const double part = texels > 0 ? source.value("texels", 0.0) / texels : 0;
-      if (part < 0.05) {
-        ++num_left_out;
-        continue;
-      }
-      if (!from.empty()) from += ", ";
-      from += EscapeHtml(source.value("photograph", "")) + " <span class=\"soft\">" +
-              FormatShare(part) + "</span>";
-    }
-    if (num_left_out > 0) {
-      from += " <span class=\"soft\">and " + std::to_string(num_left_out) + " more</span>";
-    }
-    const int percent = static_cast<int>(std::lround(100 * std::clamp(share, 0.0, 1.0)));
-    body_ += std::string("<tr") + (share < kWellCovered ? " class=\"missing\"" : "") + ">" +
-             NumberCell(std::to_string(face.value("face", 0))) +
-             TextCell(EscapeHtml(face.value("name", ""))) +
-             NumberCell(FormatNumber(face.value("area", 0.0), 1)) + NumberCell(FormatShare(share)) +
-             TextCell("<span class=\"bar\"><i style=\"width:" + std::to_string(percent) +
-                      "%\"></i></span>") +
-             NumberCell(texels > 0 ? FormatSigma(face.value("texel_size", 0.0)) : "\u2013") +
-             TextCell(from) + "</tr>\n";
   }
 
   void AddPhotographs() {
@@ -388,6 +316,7 @@ class Report {
   const Scene* scene_;
   ReportOptions options_;
   std::optional<std::vector<Registration>> registrations_;
+  std::vector<ModelError> model_errors_;
   std::optional<Json> coverage_;
   std::optional<Json> manifest_;
   std::vector<ModelEdge> edges_;

@@ -19,6 +19,16 @@ std::string FormatSigma(double sigma);
 // "87 %"; "< 1 %" and "> 99 %" rather than a false 0 or 100.
 std::string FormatShare(double share);
 
+// A table's cell around HTML: text, or a number.
+inline std::string TextCell(const std::string& html) { return "<td>" + html + "</td>"; }
+inline std::string NumberCell(const std::string& html) {
+  return "<td class=\"n\">" + html + "</td>";
+}
+// "1 face", "3 faces".
+inline std::string Plural(size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 std::string EncodeBase64(const std::string& bytes);
 
 // The picture made no wider than width_px.

@@ -96,7 +96,7 @@ std::vector<Outcome> RegisterFromTags(const Scene& scene,
                                       const Truth& truth,
                                       const RegisterOptions& options) {
   std::vector<Outcome> outcomes;
-  for (const Registration& registration : RegisterScene(scene, {}, options, {})) {
+  for (const Registration& registration : RegisterScene(scene, {}, options, {}).registrations) {
     for (const NamedCamera& named : truth.cameras) {
       if (named.name != registration.name) continue;
       const CameraErrors errors =

@@ -102,6 +102,16 @@ TEST(RefineTogether, AnEdgeThatThePlanHasTooLowIsFoundAndDragsNoCamera) {
     }
   }
   EXPECT_EQ(num_shed, 1);  // the long eave, in front
+
+  // The list of what is off holds eaves of the lean-to and nothing else.
+  const std::vector<ModelError> errors = FindModelErrors(edge_model, displacements, {});
+  ASSERT_FALSE(errors.empty());
+  for (const ModelError& error : errors) {
+    EXPECT_EQ(error.start_in_world.z(), 8) << error.name;
+    EXPECT_NEAR(error.offset_in_world.z(), 0.3, 0.06) << error.name;
+    EXPECT_GE(error.num_photographs, 3);
+    EXPECT_GT(error.sigma, 0);
+  }
 }
 
 TEST(RefineTogether, WithAnExactModelCamerasStayAndTruthLiesInTheirEllipsoids) {
@@ -120,6 +130,15 @@ TEST(RefineTogether, WithAnExactModelCamerasStayAndTruthLiesInTheirEllipsoids) {
         difference.dot(registration.covariance.completeOrthogonalDecomposition().solve(difference));
     EXPECT_LT(squared, 19.68) << registration.name;  // chi-squared, 11 degrees of freedom, 95 %
   }
+}
+
+TEST(FindModelErrors, AnExactModelHasNone) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
+  const std::vector<EdgeDisplacement> displacements = RefineAccepted(edge_model, {}, alignments);
+  EXPECT_FALSE(displacements.empty());
+  EXPECT_TRUE(FindModelErrors(edge_model, displacements, {}).empty());
 }
 
 TEST(RefineTogether, PhotographsOfOneLensEndWithOneK1) {

@@ -64,7 +64,7 @@ SceneErrors MeasureErrors(const Scene& scene, const std::vector<Registration>& r
 
 TEST(RegisterScene, TheBrickBuildingsSlidesAreFoundToHalfAPixel) {
   const Scene scene = ReadScene(BrickFolder());
-  const SceneErrors errors = MeasureErrors(scene, RegisterScene(scene, {}, {}, {}));
+  const SceneErrors errors = MeasureErrors(scene, RegisterScene(scene, {}, {}, {}).registrations);
   ASSERT_GE(errors.accepted_px.size(), 10u);
   EXPECT_EQ(errors.accepted_px.size() + errors.num_flagged, 12u);
   EXPECT_LT(errors.accepted_px[errors.accepted_px.size() / 2], 0.5);
@@ -74,7 +74,7 @@ TEST(RegisterScene, RealPhotographsAreFoundToThreeFifthsOfAPixel) {
   const std::filesystem::path folder = ChateauFolder();
   if (folder.empty()) GTEST_SKIP() << "the château is not here; set GROUNDGLASS_DATA to its parent";
   const Scene scene = ReadScene(folder);
-  const SceneErrors errors = MeasureErrors(scene, RegisterScene(scene, {}, {}, {}));
+  const SceneErrors errors = MeasureErrors(scene, RegisterScene(scene, {}, {}, {}).registrations);
   ASSERT_GE(errors.accepted_px.size(), 5u);
   EXPECT_LT(errors.accepted_px[errors.accepted_px.size() / 2], 0.6);
 }
@@ -85,10 +85,10 @@ TEST(RegisterScene, TheNumberOfThreadsDoesNotChangeTheResult) {
   std::string one;
   {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-    one = FormatRegistrations(RegisterScene(scene, {}, {}, {}));
+    one = FormatRegistrations(RegisterScene(scene, {}, {}, {}).registrations);
   }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
-  EXPECT_EQ(one, FormatRegistrations(RegisterScene(scene, {}, {}, {})));
+  EXPECT_EQ(one, FormatRegistrations(RegisterScene(scene, {}, {}, {}).registrations));
 }
 
 TEST(RegisterScene, AMaskOfAnotherSizeIsAnError) {
@@ -110,11 +110,12 @@ TEST(RegisterScene, AMaskOfAnotherSizeIsAnError) {
 TEST(RegistrationOutput, CorrectedTagsAndColmapCamerasAgree) {
   Scene scene = ReadScene(BrickFolder());
   scene.photographs.resize(2);
-  std::vector<Registration> registrations = RegisterScene(scene, {}, {}, {});
+  RegisteredScene registered = RegisterScene(scene, {}, {}, {});
+  std::vector<Registration>& registrations = registered.registrations;
   registrations[1].verdict = Verdict::kRejected;
   registrations[1].corrected = registrations[1].measured;
   const TemporaryFolder folder;
-  WriteRegistrationOutput(scene, registrations, folder.path());
+  WriteRegistrationOutput(scene, registered, folder.path());
   const std::vector<NamedCamera> cameras = ReadColmapModel(folder / "cameras");
   ASSERT_EQ(cameras.size(), 2u);
   for (size_t i = 0; i < 2; ++i) {

@@ -97,6 +97,7 @@ TEST(RegistrationFile, RoundTripsToTheLastBit) {
   registration.score_nats = 412.5;
   registration.margin_nats = 61;
   registration.moved_px = 16.8;
+  registration.vertex_sigma_px = 0.7;
   const TemporaryFolder folder;
   const auto file =
       folder.Write("registration.json", FormatRegistrations({registration, registration}));
@@ -118,6 +119,23 @@ TEST(RegistrationFile, RoundTripsToTheLastBit) {
   EXPECT_EQ(again.score_nats, 412.5);
   EXPECT_EQ(again.margin_nats, 61);
   EXPECT_EQ(again.moved_px, 16.8);
+  EXPECT_EQ(again.vertex_sigma_px, 0.7);
+}
+
+TEST(RegistrationFile, KeepsWhereTheModelIsOff) {
+  const ModelError error = {"east wall / roof", {1, 2, 3}, {4, 2, 3}, {0, 0.25, -0.3}, 0.05, 4};
+  const TemporaryFolder folder;
+  const auto file = folder.Write("registration.json", FormatRegistrations({}, {error}));
+  const std::vector<ModelError> read = ReadModelErrors(file);
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].name, error.name);
+  EXPECT_EQ(read[0].start_in_world, error.start_in_world);
+  EXPECT_EQ(read[0].end_in_world, error.end_in_world);
+  EXPECT_EQ(read[0].offset_in_world, error.offset_in_world);
+  EXPECT_EQ(read[0].sigma, error.sigma);
+  EXPECT_EQ(read[0].num_photographs, 4);
+  // People read `site`, where y counts southwards.
+  EXPECT_NE(ReadTextFile(file).find("-0.25"), std::string::npos);
 }
 
 TEST(RegistrationFile, BadOnesGiveOneLine) {

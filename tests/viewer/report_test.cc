@@ -107,6 +107,19 @@ TEST_F(ReportOf, TellsVerdictsReasonsAndWhatMoved) {
   EXPECT_THAT(html, HasSubstr("no better known than before"));
 }
 
+TEST_F(ReportOf, ListsWhereTheModelIsOffInSite) {
+  WriteRegistrations();
+  EXPECT_THAT(FormatReport(folder_), Not(HasSubstr("Where the model is off")));
+  const ModelError cornice = {"east wall / roof", {}, {1, 0, 0}, {0, 0.25, -0.3}, 0.05, 4};
+  WriteFileAtomically(
+      folder_ / "registration.json",
+      FormatRegistrations(ReadRegistrations(folder_ / "registration.json"), {cornice}));
+  const std::string html = FormatReport(folder_);
+  EXPECT_THAT(html, HasSubstr("Where the model is off"));
+  EXPECT_THAT(html, HasSubstr("<td>east wall / roof</td>"));
+  EXPECT_THAT(html, HasSubstr("<td class=\"n\">\u22120.250</td>"));  // south is positive
+}
+
 TEST_F(ReportOf, PointsOutFacesThatNobodySees) {
   WriteCoverage();
   const std::string html = FormatReport(folder_);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "register/edge_samples.h"
+#include "register/joint_refinement.h"
+#include "scene/registration.h"
+
+#include <vector>
+
+namespace groundglass {
+
+struct ModelErrorOptions {
+  // A line is reported if at least this many photographs show it, and it was found this far away,
+  // in standard deviations and in metres.
+  int min_photographs = 3;
+  double min_sigmas = 4;
+  double min_offset_m = 0.04;
+};
+
+// The lines that are off in all photographs that show them, the farthest first.
+std::vector<ModelError> FindModelErrors(const EdgeModel& edge_model,
+                                        const std::vector<EdgeDisplacement>& displacements,
+                                        const ModelErrorOptions& options);
+
+}  // namespace groundglass
