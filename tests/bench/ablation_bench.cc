@@ -40,7 +40,14 @@ std::vector<Variant> MakeVariants() {
   add("no annealing").refine.start_sigmas = 1e-6;
   RegisterOptions& exact_model = add("no edge offsets");
   exact_model.refine.bias.edge_offset_m = exact_model.refine.bias.edge_turn_m = 1e-6;
-  add("strongest candidate alone").refine.matching.max_candidates = 1;
+  exact_model.joint.common_offset_m = exact_model.joint.common_turn_m = 1e-4;
+  exact_model.joint.own.edge_offset_m = exact_model.joint.own.edge_turn_m = 1e-6;
+  RegisterOptions& strongest = add("strongest candidate alone");
+  strongest.refine.matching.max_candidates = strongest.joint.matching.max_candidates = 1;
+  add("each photograph by itself").independent = true;
+  RegisterOptions& anchored = add("edges held where the model has them");
+  anchored.joint.common_offset_m = anchored.joint.common_turn_m = 1e-4;
+  anchored.joint.own = anchored.refine.bias;
   return variants;
 }
 
