@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
 #include "cli/commands.h"
+#include "scene/model_io.h"
 #include "scene/output_folder.h"
 #include "scene/registration_io.h"
 
@@ -22,6 +23,7 @@ struct InvrenderArguments {
   std::filesystem::path out_folder;
   std::optional<std::filesystem::path> views_folder;
   std::optional<std::filesystem::path> model_file;
+  std::optional<std::filesystem::path> earlier_model_file;
   BakeArguments bake;
 };
 
@@ -66,6 +68,11 @@ Manifest Describe(const InvrenderArguments& arguments,
           HashFile(*file);
     }
   }
+  if (arguments.earlier_model_file) {
+    manifest.sha256_of_inputs["--as-photographed/" +
+                              arguments.earlier_model_file->filename().string()] =
+        HashFile(*arguments.earlier_model_file);
+  }
   const std::filesystem::path pairs = scene.folder / "pairs.csv";
   if (std::filesystem::exists(pairs)) manifest.sha256_of_inputs["pairs.csv"] = HashFile(pairs);
   return manifest;
@@ -78,6 +85,8 @@ void PrintSummary(const BakeResult& result, size_t num_photographs, bool as_json
     num_texels += face.num_covered_texels;
     num_bare += face.num_covered_texels == 0 ? 1 : 0;
   }
+  std::vector<int> new_faces = result.new_faces;
+  for (int& face : new_faces) ++face;  // people count from 1
   if (as_json) {
     const nlohmann::ordered_json json = {{"photographs", num_photographs},
                                          {"faces", result.coverage.faces.size()},
@@ -85,6 +94,7 @@ void PrintSummary(const BakeResult& result, size_t num_photographs, bool as_json
                                          {"covered_share", result.coverage.CoveredShare()},
                                          {"covered_texels", num_texels},
                                          {"texel_scale", result.texel_scale},
+                                         {"new_faces", new_faces},
                                          {"pages", result.model.pages.size()}};
     std::printf("%s\n", json.dump(2).c_str());
     return;
@@ -98,6 +108,9 @@ void PrintSummary(const BakeResult& result, size_t num_photographs, bool as_json
       num_bare,
       static_cast<double>(num_texels) / 1e6,
       result.model.pages.size());
+  for (const int face : result.new_faces) {
+    std::printf("new since the photographs: %s\n", DescribeFace(result.model.model, face).c_str());
+  }
   if (result.texel_scale > 1) {
     std::printf("texels are %.2f times as long as the photographs allow, to stay within --memory\n",
                 result.texel_scale);
@@ -125,6 +138,9 @@ int RunInvrender(const InvrenderArguments& arguments) {
   WriteManifest(arguments.out_folder, Describe(arguments, scene, photographs));
   BakeOptions options = arguments.bake.Options();
   options.on_face_mask = FaceMaskWriter(arguments.out_folder);
+  if (arguments.earlier_model_file) {
+    options.as_photographed = ReadModel(*arguments.earlier_model_file, scene_options.model).model;
+  }
   const BakeResult result =
       BakeTextures(scene.model, photographs, options, MakeProgress(arguments.common, "texture"));
   WriteBake(result, arguments.out_folder, "." + arguments.bake.format);
@@ -146,6 +162,10 @@ void AddInvrenderCommand(CLI::App& app, int& exit_status) {
                       ".view files or a COLMAP text model in place of the scene's own tags; "
                       "verdicts in a registration.json beside it are heeded");
   command->add_option("--model", arguments->model_file, "in place of the one in the scene folder");
+  command->add_option("--as-photographed",
+                      arguments->earlier_model_file,
+                      "the model as it was when the photographs were taken, if the building has "
+                      "changed since: what both have is textured");
   AddBakeArguments(command, arguments->bake, "--only,--only-faces");
   AddCommonOptions(command, arguments->common);
   command->callback([arguments, &exit_status] {

@@ -6,6 +6,7 @@
 #include "invrender/colour.h"
 #include "invrender/compose.h"
 #include "invrender/dilate.h"
+#include "invrender/earlier_model.h"
 #include "invrender/fill.h"
 #include "invrender/invrender.h"
 #include "invrender/memory_plan.h"
@@ -56,6 +57,20 @@ void ForEach(int count, const BakeOptions& options, const Work& work) {
   }
 }
 
+// No photograph may texture these faces.
+void KeepFrom(const std::vector<int>& faces,
+              size_t num_faces,
+              std::vector<BakePhotograph>& photographs) {
+  for (BakePhotograph& photograph : photographs) {
+    if (!photograph.faces) {
+      photograph.faces.emplace(num_faces);
+      std::iota(photograph.faces->begin(), photograph.faces->end(), 0);
+    }
+    std::erase_if(*photograph.faces,
+                  [&](int face) { return std::binary_search(faces.begin(), faces.end(), face); });
+  }
+}
+
 std::vector<std::filesystem::path> ImageFiles(const std::vector<BakePhotograph>& photographs) {
   std::vector<std::filesystem::path> files;
   for (const BakePhotograph& photograph : photographs) files.push_back(photograph.image_file);
@@ -65,13 +80,15 @@ std::vector<std::filesystem::path> ImageFiles(const std::vector<BakePhotograph>&
 std::vector<PreparedPhoto> PreparePhotos(const PolygonModel& model,
                                          const std::vector<BakePhotograph>& photographs,
                                          const Visibility& visibility,
+                                         const EarlierModel* earlier,
                                          const std::vector<int>& chart_of_face,
                                          const BakeOptions& options,
                                          PhotoCache& cache,
                                          Steps& steps) {
   std::vector<std::optional<PreparedPhoto>> prepared(photographs.size());
   ForEach(static_cast<int>(photographs.size()), options, [&](int i) {
-    prepared[i].emplace(photographs[i], i, model, visibility, chart_of_face, options, cache);
+    prepared[i].emplace(
+        photographs[i], i, model, visibility, earlier, chart_of_face, options, cache);
     steps.Tell("read " + photographs[i].name);
   });
   std::vector<PreparedPhoto> photos;
@@ -216,16 +233,28 @@ BakeResult BakeTextures(const PolygonModel& model,
   });
 
   const Visibility visibility(model);
+  BakeResult result;
+  std::optional<EarlierModel> earlier;
+  if (options.as_photographed) {
+    earlier.emplace(*options.as_photographed, model);
+    result.new_faces = earlier->FindNewFaces();
+    KeepFrom(result.new_faces, model.faces.size(), sorted);
+  }
   std::vector<Chart> charts = MakeCharts(model);
   const std::vector<int> chart_of_face = ChartOfFace(charts, model.faces.size());
   const int num_charts = static_cast<int>(charts.size());
   Steps steps(progress, static_cast<int>(sorted.size()) + 1 + num_charts);
   const bool is_limited = options.max_memory_mb > 0;
   PhotoCache cache(ImageFiles(sorted), is_limited ? 0 : std::numeric_limits<size_t>::max());
-  const std::vector<PreparedPhoto> photos =
-      PreparePhotos(model, sorted, visibility, chart_of_face, options, cache, steps);
+  const std::vector<PreparedPhoto> photos = PreparePhotos(model,
+                                                          sorted,
+                                                          visibility,
+                                                          earlier ? &*earlier : nullptr,
+                                                          chart_of_face,
+                                                          options,
+                                                          cache,
+                                                          steps);
   ChooseTexelSizes(model, photos, options, charts);
-  BakeResult result;
   if (is_limited) {
     const MemoryPlan plan =
         PlanMemory(charts, photos, static_cast<size_t>(options.max_memory_mb) * 1000000);

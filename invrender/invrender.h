@@ -62,6 +62,10 @@ struct BakeOptions {
   // Paints over what no photograph shows, from what lies around it; provenance says so.
   bool fill_gaps = false;
 
+  // The model as it was when the photographs were taken, where it has changed since, in the same
+  // frame and unit. Photographs then texture what both have; what is new stays plain.
+  std::optional<PolygonModel> as_photographed;
+
   // Gets each photograph's automatic face mask (MakeFaceMask), from several threads at once.
   std::function<void(const BakePhotograph& photograph, const Image16& labels)> on_face_mask;
 
@@ -71,6 +75,7 @@ struct BakeOptions {
 struct BakeResult {
   TexturedModel model;
   Coverage coverage;
+  std::vector<int> new_faces;  // of the model, that as_photographed has no part of; ascending
   double texel_scale = 1;  // above 1: texels were made this much longer to stay within the memory
 };
 

@@ -38,10 +38,12 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
                              int index,
                              const PolygonModel& model,
                              const Visibility& visibility,
+                             const EarlierModel* earlier,
                              const std::vector<int>& chart_of_face,
                              const BakeOptions& options,
                              PhotoCache& cache)
     : visibility_(visibility),
+      earlier_(earlier),
       chart_of_face_(chart_of_face),
       cache_(cache),
       index_(index),
@@ -60,7 +62,9 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
   const ImageSize size = ReadImageSize(photograph.image_file);
   CheckSize(photograph.image_file, size.width, size.height, camera_);
   Image16 labels;
-  if (!is_hand_painted_ || options.on_face_mask) labels = MakeFaceMask(model, visibility, camera_);
+  if (!is_hand_painted_ || options.on_face_mask) {
+    labels = earlier ? earlier->MakeFaceMask(camera_) : MakeFaceMask(model, visibility, camera_);
+  }
   if (options.on_face_mask) options.on_face_mask(photograph, labels);
   if (is_hand_painted_) {
     labels = ReadLabels(*photograph.faces_file);
@@ -118,6 +122,11 @@ bool PreparedPhoto::IsPaintedBeside(const Eigen::Vector2d& image_px, int face) c
   return false;
 }
 
+bool PreparedPhoto::IsInView(const Eigen::Vector3d& point_in_world) const {
+  return earlier_ ? earlier_->Shows(position_in_world_, point_in_world)
+                  : visibility_.IsClear(position_in_world_, point_in_world, tolerance_);
+}
+
 Eigen::Vector2d PreparedPhoto::StepInside(const Eigen::Vector2d& image_px, int chart_index) const {
   constexpr double kStep = 0.3;  // px: more loses what stands at the border, less shows both sides
   const int x = static_cast<int>(image_px.x());
@@ -164,7 +173,7 @@ std::optional<Sighting> PreparedPhoto::Sight(const ChartInCamera& view,
     const Eigen::Vector3d point_in_world = view.chart->origin_in_world +
                                            plane_point.x() * view.chart->right_in_world +
                                            plane_point.y() * view.chart->down_in_world;
-    if (!visibility_.IsClear(position_in_world_, point_in_world, tolerance_)) return std::nullopt;
+    if (!IsInView(point_in_world)) return std::nullopt;
   } else if (!is_own) {
     return std::nullopt;
   }

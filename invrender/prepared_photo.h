@@ -3,6 +3,7 @@
 #pragma once
 
 #include "invrender/charts.h"
+#include "invrender/earlier_model.h"
 #include "invrender/invrender.h"
 #include "invrender/photo_cache.h"
 #include "invrender/sight_map.h"
@@ -39,11 +40,13 @@ struct ChartInCamera {
 class PreparedPhoto {
  public:
   // Reads the image and the masks; throws Error if they do not fit the camera. `index` is the
-  // photograph's in the cache, which must outlive this, as the others.
+  // photograph's in the cache, which must outlive this, as the others. `earlier`: if the model has
+  // changed since; nullptr if not.
   PreparedPhoto(const BakePhotograph& photograph,
                 int index,
                 const PolygonModel& model,
                 const Visibility& visibility,
+                const EarlierModel* earlier,
                 const std::vector<int>& chart_of_face,
                 const BakeOptions& options,
                 PhotoCache& cache);
@@ -77,11 +80,14 @@ class PreparedPhoto {
   // painted with its number.
   bool IsPaintedBeside(const Eigen::Vector2d& image_px, int face) const;
 
+  bool IsInView(const Eigen::Vector3d& point_in_world) const;
+
   // From a pixel beside a border a little towards the neighbour that is farthest from it: the pixel
   // itself is mixed of both sides.
   Eigen::Vector2d StepInside(const Eigen::Vector2d& image_px, int chart_index) const;
 
   const Visibility& visibility_;
+  const EarlierModel* earlier_;
   const std::vector<int>& chart_of_face_;
   PhotoCache& cache_;
   int index_;

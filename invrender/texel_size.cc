@@ -9,9 +9,7 @@
 #include <cmath>
 
 namespace groundglass {
-namespace {
 
-// Points spread over a face: 16 in each of its triangles, in barycentric coordinates.
 std::vector<Eigen::Vector3d> SpreadPoints(const PolygonModel& model, int face) {
   constexpr int kRows = 7;
   std::vector<Eigen::Vector3d> points;
@@ -29,8 +27,6 @@ std::vector<Eigen::Vector3d> SpreadPoints(const PolygonModel& model, int face) {
   }
   return points;
 }
-
-}  // namespace
 
 void ChooseTexelSizes(const PolygonModel& model,
                       const std::vector<PreparedPhoto>& photos,

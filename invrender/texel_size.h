@@ -9,6 +9,9 @@
 
 namespace groundglass {
 
+// Points spread over a face, some 28 in each of its triangles.
+std::vector<Eigen::Vector3d> SpreadPoints(const PolygonModel& model, int face);
+
 // Gives each chart that some photograph shows the texel size that keeps most of what the best
 // photograph of each place resolves; options.texel_size overrules. Charts that no page would hold
 // get coarser texels. Charts that no photograph shows keep texel_size 0.
