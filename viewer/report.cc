@@ -176,7 +176,8 @@ class Report {
         "used, at lower weight; a person should look. <span class=\"rejected verdict\">rejected"
         "</span>: no trustworthy fit; the field notes stand, and the photograph is not used.</p>\n"
         "<table><thead><tr><th>Photograph</th><th>Verdict</th><th class=\"n\">Edges moved, px</th>"
-        "<th class=\"n\">Misfit left, px</th><th class=\"n\">Edge points</th><th>Remarks</th></tr>"
+        "<th class=\"n\">Misfit left, px</th><th class=\"n\">Model known to, px</th><th "
+        "class=\"n\">Edge points</th><th>Remarks</th></tr>"
         "</thead><tbody>\n";
     for (const Registration& registration : *registrations_) {
       std::string remarks;
@@ -192,6 +193,7 @@ class Report {
                NumberCell(is_rejected ? "\u2013" : FormatNumber(registration.moved_px, 1)) +
                NumberCell(registration.num_samples > 0 ? FormatNumber(registration.rms_px, 0.1)
                                                        : "\u2013") +
+               NumberCell(is_rejected ? "\u2013" : FormatNumber(registration.vertex_sigma_px, 1)) +
                NumberCell(std::to_string(registration.num_samples)) + TextCell(remarks) + "</tr>\n";
     }
     body_ += "</tbody></table>\n";

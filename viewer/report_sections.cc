@@ -42,7 +42,18 @@ std::string FormatSources(const Json& face) {
   return from;
 }
 
-std::string FormatFaceRow(const Json& face) {
+// "232, -104, 5": where to stand, in `site`.
+std::string FormatStandpoint(const Json& face) {
+  const Json missing = face.value("missing", Json::object());
+  const auto at = missing.value("stand_at", std::vector<double>());
+  std::string text;
+  for (const double coordinate : at) {
+    text += (text.empty() ? "" : ", ") + FormatNumber(coordinate, 10);
+  }
+  return text.empty() ? "\u2013" : text;
+}
+
+std::string FormatFaceRow(const Json& face, bool with_standpoint) {
   const double share = SeenShare(face);
   const int percent = static_cast<int>(std::lround(100 * std::clamp(share, 0.0, 1.0)));
   return std::string("<tr") + (share < kWellCovered ? " class=\"missing\"" : "") + ">" +
@@ -54,15 +65,19 @@ std::string FormatFaceRow(const Json& face) {
          NumberCell(face.value("covered_texels", 0.0) > 0
                         ? FormatSigma(face.value("texel_size", 0.0))
                         : "\u2013") +
-         TextCell(FormatSources(face)) + "</tr>\n";
+         TextCell(FormatSources(face)) + (with_standpoint ? TextCell(FormatStandpoint(face)) : "") +
+         "</tr>\n";
 }
 
-std::string FormatFaceTable(const std::vector<Json>& faces, const std::string& unit) {
+std::string FormatFaceTable(const std::vector<Json>& faces,
+                            const std::string& unit,
+                            bool with_standpoint) {
   std::string table =
       "<table><thead><tr><th class=\"n\">Face</th><th>Name</th><th class=\"n\">Area," + unit +
       "\u00b2</th><th class=\"n\">Seen</th><th></th><th class=\"n\">Texel," + unit +
-      "</th><th>From</th></tr></thead><tbody>\n";
-  for (const Json& face : faces) table += FormatFaceRow(face);
+      "</th><th>From</th>" + (with_standpoint ? "<th>Stand at x, y, z," + unit + "</th>" : "") +
+      "</tr></thead><tbody>\n";
+  for (const Json& face : faces) table += FormatFaceRow(face, with_standpoint);
   return table + "</tbody></table>\n";
 }
 
@@ -85,10 +100,11 @@ std::string FormatCoverageSection(const Json& coverage, const std::string& unit)
     section += "Every face is seen by half or more.</p>\n";
   } else {
     section += Plural(missing.size(), "face") + (missing.size() == 1 ? " is" : " are") +
-               " seen by less than half: a photograph from there would help.</p>\n" +
-               FormatFaceTable(missing, unit);
+               " seen by less than half: a photograph from the place named would show what is "
+               "missing.</p>\n" +
+               FormatFaceTable(missing, unit, true);
   }
-  return section + "<details><summary>All faces</summary>\n" + FormatFaceTable(faces, unit) +
+  return section + "<details><summary>All faces</summary>\n" + FormatFaceTable(faces, unit, false) +
          "</details>\n";
 }
 

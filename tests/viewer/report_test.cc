@@ -65,6 +65,7 @@ class ReportOf : public testing::Test {
     good.num_samples = 812;
     good.rms_px = 0.43;
     good.moved_px = 12.3;
+    good.vertex_sigma_px = 0.7;
     Registration bad = good;
     bad.name = "s2";
     bad.verdict = Verdict::kRejected;
@@ -80,7 +81,8 @@ class ReportOf : public testing::Test {
            "sources": [{"photograph": "s1", "texels": 97, "footprint": 0.04},
                        {"photograph": "s3", "texels": 3, "footprint": 0.09}]},
           {"face": 2, "name": "north", "area": 8, "covered_area": 0, "texels": 100,
-           "covered_texels": 0, "texel_size": 0.05, "sources": []}]})");
+           "covered_texels": 0, "texel_size": 0.05, "sources": [],
+           "missing": {"area": 8, "centre": [1, 2, 3], "stand_at": [12.3, -4.1, 5]}}]})");
   }
 
   const TemporaryFolder temporary_;
@@ -105,6 +107,8 @@ TEST_F(ReportOf, TellsVerdictsReasonsAndWhatMoved) {
   EXPECT_THAT(html, HasSubstr("0.250"));                     // x, corrected
   EXPECT_THAT(html, HasSubstr("<td class=\"n\">2.5</td>"));  // in expected errors
   EXPECT_THAT(html, HasSubstr("no better known than before"));
+  EXPECT_THAT(html,
+              HasSubstr("<td class=\"n\">0.7</td>"));  // how well the model's points are known
 }
 
 TEST_F(ReportOf, ListsWhereTheModelIsOffInSite) {
@@ -125,6 +129,7 @@ TEST_F(ReportOf, PointsOutFacesThatNobodySees) {
   const std::string html = FormatReport(folder_);
   EXPECT_THAT(html, HasSubstr("62 %"));
   EXPECT_THAT(html, HasSubstr("1 face is seen by less than half"));
+  EXPECT_THAT(html, HasSubstr("<td>12, \u22124, 5</td>"));  // where to stand
   EXPECT_THAT(html,
               HasSubstr("s1 <span class=\"soft\">97 %</span> <span class=\"soft\">and 1 more"));
 }
