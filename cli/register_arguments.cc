@@ -40,8 +40,9 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
   command->add_option("-o,--out", arguments.out_folder, "where to write")->required();
   command->add_option("--model", arguments.model_file, "the model, in place of the scene's own");
   command->add_option("--lens", arguments.lens_file, "lens file, as `calibrate board` writes it");
-  command->add_flag(
-      "--digital", prior.digital, "no slide mount and no scan: the lens file holds as it is");
+  command->add_flag("--digital",
+                    prior.digital,
+                    "no slide mount and no scan: the lens is the same in every photograph");
   command
       ->add_option("--lock",
                    prior.lock,

@@ -30,7 +30,7 @@ struct PriorOptions {
   // What a slide's mount and its scan add to a calibrated lens. No slides: set digital.
   double slide_scale_share = 0.01;
   double slide_aspect_share = 0.003;
-  bool digital = false;  // no mount and no scan: the lens file holds as it is
+  bool digital = false;  // no mount and no scan: what is true of the lens holds as it is
 
   // Parameters held at the tag's values: names of kCameraParameterNames, or "shift" for both.
   std::vector<std::string> lock;

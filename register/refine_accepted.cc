@@ -38,7 +38,13 @@ std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
     lenses.push_back(lens_of_key.emplace(LensKeyOf(alignment.registration), next).first->second);
   }
   if (photographs.size() < 2) return {};
-  const JointRefinement joint = RefineTogether(edge_model, photographs, lenses, options.joint);
+  JointOptions joint_options = options.joint;
+  if (options.prior.digital) {
+    // No mount and no scan gives a photograph a scale of its own.
+    joint_options.own_view_angle_share = joint_options.own_k1_share;
+    joint_options.own_aspect_share = joint_options.own_k1_share;
+  }
+  const JointRefinement joint = RefineTogether(edge_model, photographs, lenses, joint_options);
   for (size_t i = 0; i < photographs.size(); ++i) {
     const AlignedPhotograph& photograph = photographs[i];
     Registration& registration = together[i]->registration;

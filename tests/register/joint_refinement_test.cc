@@ -162,6 +162,28 @@ TEST(RefineTogether, PhotographsOfOneLensEndWithOneK1) {
   EXPECT_GT(spread_alone, 3 * spread);
 }
 
+TEST(RefineAccepted, DigitalPhotographsOfOneLensEndWithOneViewAngleAndAspect) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  for (const bool digital : {false, true}) {
+    RegisterOptions options;
+    options.prior.digital = digital;
+    std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
+    RefineAccepted(edge_model, options, alignments);
+    double view_angle_spread_deg = 0;
+    double aspect_spread = 0;
+    const ViewTag& first = alignments[0].registration.corrected;
+    for (const PhotographAlignment& alignment : alignments) {
+      const ViewTag& tag = alignment.registration.corrected;
+      view_angle_spread_deg =
+          std::max(view_angle_spread_deg, std::abs(tag.view_angle_deg - first.view_angle_deg));
+      aspect_spread = std::max(aspect_spread, std::abs(tag.aspect - first.aspect));
+    }
+    EXPECT_EQ(view_angle_spread_deg < 0.02, digital) << view_angle_spread_deg;
+    EXPECT_EQ(aspect_spread < 0.0005, digital) << aspect_spread;
+  }
+}
+
 TEST(RefineTogether, LockedParametersStayLocked) {
   const PolygonModel model = MakeHouse();
   const EdgeModel edge_model(model);
