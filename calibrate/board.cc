@@ -7,6 +7,7 @@
 #include "calibrate/tag_detection.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
+#include "scene/srgb.h"
 
 #include <tbb/parallel_for.h>
 

@@ -3,8 +3,10 @@
 #include "datasets-synthetic/oracle.h"
 
 #include "datasets-synthetic/occluders.h"
+#include "scene/cubic_weights.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
+#include "scene/srgb.h"
 #include "scene/visibility.h"
 
 #include <tbb/parallel_for.h>
@@ -95,15 +97,6 @@ Image8 ReadMount(const OraclePhotograph& photograph, size_t num_faces) {
   Image8 is_mount(codes.width, codes.height, 1);
   for (size_t i = 0; i < codes.values.size(); ++i) is_mount.values[i] = codes.values[i] == mount;
   return is_mount;
-}
-
-std::array<float, 4> CubicWeights(float t) {
-  const float t2 = t * t;
-  const float t3 = t2 * t;
-  return {-0.5f * t3 + t2 - 0.5f * t,
-          1.5f * t3 - 2.5f * t2 + 1,
-          -1.5f * t3 + 2 * t2 + 0.5f * t,
-          0.5f * t3 - 0.5f * t2};
 }
 
 // Radiance between pixels.

@@ -5,6 +5,7 @@
 #include "datasets-synthetic/noise.h"
 #include "scene/frames.h"
 #include "scene/image_io.h"
+#include "scene/srgb.h"
 
 #include <opencv2/imgproc.hpp>
 #include <tbb/parallel_for.h>

@@ -14,6 +14,7 @@
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/osu_io.h"
+#include "scene/srgb.h"
 #include "scene/view_io.h"
 
 #include <tbb/parallel_for.h>

@@ -2,7 +2,9 @@
 // Part of Groundglass.
 #include "invrender/photo_pyramid.h"
 
+#include "scene/cubic_weights.h"
 #include "scene/image_io.h"
+#include "scene/srgb.h"
 
 #include <tbb/parallel_for.h>
 
@@ -52,16 +54,6 @@ Image8 Halve(const Image8& full) {
     }
   });
   return half;
-}
-
-// Catmull-Rom weights of the four neighbours at -1, 0, 1, 2 for a position `t` in [0, 1).
-std::array<float, 4> CubicWeights(float t) {
-  const float t2 = t * t;
-  const float t3 = t2 * t;
-  return {-0.5f * t3 + t2 - 0.5f * t,
-          1.5f * t3 - 2.5f * t2 + 1,
-          -1.5f * t3 + 2 * t2 + 0.5f * t,
-          0.5f * t3 - 0.5f * t2};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/srgb.h"
 #include "scene/text.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -18,34 +19,6 @@
 
 namespace groundglass {
 namespace {
-
-// Both directions are tabulated at 2^16 steps and interpolated: within 1e-7 of the formula, and
-// fast enough for every texel.
-constexpr int kTableSteps = 65536;
-
-double ExactLinearFromSrgb(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-double ExactSrgbFromLinear(double linear) {
-  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
-std::vector<float> MakeTable(double (*function)(double)) {
-  std::vector<float> table(kTableSteps + 1);
-  for (int i = 0; i <= kTableSteps; ++i) {
-    table[i] = static_cast<float>(function(static_cast<double>(i) / kTableSteps));
-  }
-  return table;
-}
-
-float Interpolate(const std::vector<float>& table, float value) {
-  const float position = value * kTableSteps;
-  const int step = static_cast<int>(position);
-  if (step >= kTableSteps) return table[kTableSteps];
-  const float fraction = position - static_cast<float>(step);
-  return table[step] + fraction * (table[step + 1] - table[step]);
-}
 
 // An image of either side longer than this is a damaged header, not a photograph.
 constexpr int kLongestSide = 1 << 17;
@@ -276,20 +249,6 @@ bool IsExr(const std::filesystem::path& file) {
 
 }  // namespace
 
-float LinearFromSrgb(float encoded) {
-  static const std::vector<float> table = MakeTable(ExactLinearFromSrgb);
-  if (!(encoded > 0)) return 0;
-  if (encoded >= 1) return 1;
-  return Interpolate(table, encoded);
-}
-
-float SrgbFromLinear(float linear) {
-  static const std::vector<float> table = MakeTable(ExactSrgbFromLinear);
-  if (!(linear > 0)) return 0;
-  if (linear >= 1) return 1;
-  return Interpolate(table, linear);
-}
-
 ImageSize ReadImageSize(const std::filesystem::path& file) {
   const OpenImage image(file);
   const bool swaps = OrientationFromExif(image.ExifOrientation()).swaps_sides;
@@ -307,7 +266,7 @@ ImageF ReadRadiance(const std::filesystem::path& file) {
   if (image.spec().format == OIIO::TypeUInt8) {
     std::array<float, 256> linear_of_code;
     for (int code = 0; code < 256; ++code) {
-      linear_of_code[code] = static_cast<float>(ExactLinearFromSrgb(code / 255.0));
+      linear_of_code[code] = LinearFromSrgb(static_cast<float>(code) / 255.0f);
     }
     const Image8 srgb8 =
         ColourOf(image, image.Read<uint8_t>(OIIO::TypeUInt8), [](uint8_t value) { return value; });

@@ -51,8 +51,4 @@ std::vector<uint8_t> EncodeImage(const Image8& srgb8,
                                  const ImageWriteOptions& options = {});
 Image8 DecodeSrgb8(const std::vector<uint8_t>& bytes, const std::string& extension);
 
-// The sRGB transfer function (IEC 61966-2-1), on [0, 1].
-float LinearFromSrgb(float encoded);
-float SrgbFromLinear(float linear);
-
 }  // namespace groundglass

@@ -4,6 +4,7 @@
 
 #include "calibrate/tag_detection.h"
 #include "scene/image_io.h"
+#include "scene/srgb.h"
 
 #include <opencv2/imgproc.hpp>
 

@@ -7,6 +7,7 @@
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/model_io.h"
+#include "scene/srgb.h"
 #include "scene/textured_model_io.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"

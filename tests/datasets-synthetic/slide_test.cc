@@ -3,6 +3,7 @@
 #include "datasets-synthetic/slide.h"
 
 #include "scene/image_io.h"
+#include "scene/srgb.h"
 #include "scene/view_tag.h"
 
 #include <gtest/gtest.h>

@@ -5,6 +5,7 @@
 #include "datasets-synthetic/surface_truth.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
+#include "scene/srgb.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>

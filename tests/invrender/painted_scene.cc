@@ -3,6 +3,7 @@
 #include "tests/invrender/painted_scene.h"
 
 #include "scene/image_io.h"
+#include "scene/srgb.h"
 #include "scene/visibility.h"
 
 #include <tbb/parallel_for.h>

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/image_io.h"
 
+#include "scene/srgb.h"
 #include "scene/view_io.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"

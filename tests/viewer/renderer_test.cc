@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/model_io.h"
+#include "scene/srgb.h"
 #include "scene/visibility.h"
 #include "tests/viewer/sample_models.h"
 #include "viewer/camera_path.h"
