@@ -3,7 +3,12 @@
 #include "viewer/render_target.h"
 
 #include "scene/error.h"
+#include "scene/srgb.h"
 
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace groundglass {
@@ -58,6 +63,20 @@ RenderTarget MakeTarget(
   return target;
 }
 
+// Alpha is a pixel's covered share; its colour was averaged with black where not covered, in
+// linear light.
+void UndoPremultiplication(Image8& rgba) {
+  for (size_t i = 0; i < rgba.values.size(); i += 4) {
+    const uint8_t alpha = rgba.values[i + 3];
+    if (alpha == 0 || alpha == 255) continue;
+    for (int channel = 0; channel < 3; ++channel) {
+      const float linear = LinearFromSrgb(rgba.values[i + channel] / 255.0f) * 255.0f / alpha;
+      rgba.values[i + channel] =
+          static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(std::min(1.0f, linear))));
+    }
+  }
+}
+
 }  // namespace
 
 void FitTarget(const GlFunctions& gl,
@@ -70,6 +89,21 @@ void FitTarget(const GlFunctions& gl,
     return;
   }
   target = MakeTarget(gl, width, height, multisamples, kind);
+}
+
+Image8 ReadPicture(const GlFunctions& gl, const RenderTarget& target, bool with_alpha) {
+  Image8 rgba(target.width, target.height, 4);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.Name());
+  gl.ReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.values.data());
+  if (with_alpha) {
+    UndoPremultiplication(rgba);
+    return rgba;
+  }
+  Image8 rgb(target.width, target.height, 3);
+  const cv::Mat from(target.height, target.width, CV_8UC4, rgba.values.data());
+  cv::Mat to(target.height, target.width, CV_8UC3, rgb.values.data());
+  cv::cvtColor(from, to, cv::COLOR_RGBA2RGB);
+  return rgb;
 }
 
 }  // namespace groundglass

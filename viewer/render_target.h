@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/image.h"
 #include "viewer/gl_functions.h"
 
 namespace groundglass {
@@ -27,5 +28,9 @@ void FitTarget(const GlFunctions& gl,
                int height,
                int multisamples,
                TargetKind kind);
+
+// What was drawn into a target of one sample: RGBA, its colours no longer weighted by the covered
+// share, or RGB.
+Image8 ReadPicture(const GlFunctions& gl, const RenderTarget& target, bool with_alpha);
 
 }  // namespace groundglass

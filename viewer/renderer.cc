@@ -4,7 +4,6 @@
 
 #include "scene/error.h"
 #include "scene/feature_edges.h"
-#include "scene/image_io.h"
 #include "scene/visibility.h"
 #include "viewer/edge_drawing.h"
 #include "viewer/face_numbers.h"
@@ -14,8 +13,7 @@
 #include "viewer/render_mesh.h"
 #include "viewer/render_target.h"
 #include "viewer/shaders.h"
-
-#include <opencv2/imgproc.hpp>
+#include "viewer/texture_page.h"
 
 #include <algorithm>
 #include <array>
@@ -43,34 +41,6 @@ void CheckRange(double value, double least, double most, const char* field) {
   throw Error("render options: " + std::string(field) + " must be from " +
               std::to_string(static_cast<int>(least)) + " to " +
               std::to_string(static_cast<int>(most)));
-}
-
-Image8 HalvedUntilItFits(const Image8& page, int max_size_px) {
-  int width = page.width;
-  int height = page.height;
-  while (width > max_size_px || height > max_size_px) {
-    width = std::max(1, width / 2);
-    height = std::max(1, height / 2);
-  }
-  Image8 halved(width, height, 3);
-  const cv::Mat from(page.height, page.width, CV_8UC3, const_cast<uint8_t*>(page.values.data()));
-  cv::Mat to(height, width, CV_8UC3, halved.values.data());
-  cv::resize(from, to, to.size(), 0, 0, cv::INTER_AREA);
-  return halved;
-}
-
-// Alpha is a pixel's covered share; its colour was averaged with black where not covered, in
-// linear light.
-void UndoPremultiplication(Image8& rgba) {
-  for (size_t i = 0; i < rgba.values.size(); i += 4) {
-    const uint8_t alpha = rgba.values[i + 3];
-    if (alpha == 0 || alpha == 255) continue;
-    for (int channel = 0; channel < 3; ++channel) {
-      const float linear = LinearFromSrgb(rgba.values[i + channel] / 255.0f) * 255.0f / alpha;
-      rgba.values[i + channel] =
-          static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(std::min(1.0f, linear))));
-    }
-  }
 }
 
 // Horizontal directions of the sky at the corners of clip space, for kFrameVertexShader.
@@ -142,7 +112,10 @@ struct Renderer::Impl {
     max_frame_px = std::min(max_texture_px, max_renderbuffer_px);
     UploadVertices();
     const int max_page_px = std::min<int>(options.max_page_size_px, max_texture_px);
-    for (const TexturePage& page : textured.pages) UploadPage(page.srgb8, max_page_px);
+    for (const TexturePage& page : textured.pages) {
+      pages.push_back(UploadTexturePage(
+          gl, page.srgb8, static_cast<int>(pages.size()) + 1, max_page_px, warnings));
+    }
     frame_array = GlVertexArray(gl);
     grid = GlTexture(gl);
     gl.FrontFace(GL_CW);  // see ClipFromCam
@@ -178,41 +151,6 @@ struct Renderer::Impl {
                             GL_UNSIGNED_INT,
                             sizeof(RenderVertex),
                             reinterpret_cast<const void*>(offsetof(RenderVertex, face)));
-  }
-
-  void UploadPage(const Image8& page, int max_size_px) {
-    if (page.channels != 3 || page.Empty()) {
-      throw Error("viewer: texture page " + std::to_string(pages.size() + 1) +
-                  " is empty or has not 3 channels");
-    }
-    Image8 halved;
-    const Image8* shown = &page;
-    if (page.width > max_size_px || page.height > max_size_px) {
-      halved = HalvedUntilItFits(page, max_size_px);
-      shown = &halved;
-      warnings.push_back("texture page " + std::to_string(pages.size() + 1) + " is shown at " +
-                         std::to_string(halved.width) + " x " + std::to_string(halved.height) +
-                         " in place of " + std::to_string(page.width) + " x " +
-                         std::to_string(page.height) + ": OpenGL takes no more than " +
-                         std::to_string(max_size_px));
-    }
-    pages.emplace_back(gl);
-    gl.BindTexture(GL_TEXTURE_2D, pages.back().Name());
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    gl.TexImage2D(GL_TEXTURE_2D,
-                  0,
-                  GL_SRGB8_ALPHA8,
-                  shown->width,
-                  shown->height,
-                  0,
-                  GL_RGB,
-                  GL_UNSIGNED_BYTE,
-                  shown->values.data());
-    gl.GenerateMipmap(GL_TEXTURE_2D);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   }
 
   void CheckFrame(const Camera& pinhole) const {
@@ -350,21 +288,6 @@ struct Renderer::Impl {
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
   }
 
-  Image8 ReadPicture(const RenderTarget& target, bool with_alpha) {
-    Image8 rgba(target.width, target.height, 4);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.Name());
-    gl.ReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.values.data());
-    if (with_alpha) {
-      UndoPremultiplication(rgba);
-      return rgba;
-    }
-    Image8 rgb(target.width, target.height, 3);
-    const cv::Mat from(target.height, target.width, CV_8UC4, rgba.values.data());
-    cv::Mat to(target.height, target.width, CV_8UC3, rgb.values.data());
-    cv::cvtColor(from, to, cv::COLOR_RGBA2RGB);
-    return rgb;
-  }
-
   void DrawEdgesOver(Image8& picture, const Camera& camera, const RenderOptions& options) {
     if (!visibility) {
       visibility.emplace(model);
@@ -399,8 +322,9 @@ Image8 Renderer::Render(const Camera& camera, const RenderOptions& options) {
   impl.DrawPinhole(frame.pinhole, options);
   const bool as_drawn = !frame.is_bent && options.supersampling == 1;
   if (!as_drawn) impl.Resolve(camera, frame, options.supersampling);
-  Image8 picture = impl.ReadPicture(as_drawn ? impl.drawn : impl.resolved,
-                                    options.background == Background::kTransparent);
+  Image8 picture = ReadPicture(impl.gl,
+                               as_drawn ? impl.drawn : impl.resolved,
+                               options.background == Background::kTransparent);
   const bool with_numbers = options.mode == DrawMode::kLabels;
   if (options.edges || with_numbers || options.mode == DrawMode::kWireframe) {
     impl.DrawEdgesOver(picture, camera, options);
