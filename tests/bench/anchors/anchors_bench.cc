@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "scene/error.h"
+#include "tests/bench/anchors/anchor_set.h"
 #include "tests/bench/anchors/castle.h"
+#include "tests/bench/anchors/cube.h"
+#include "tests/bench/anchors/facade.h"
 #include "tests/bench/anchors/trackers.h"
 
 #include <opencv2/core.hpp>
@@ -10,12 +13,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <tuple>
 
-// Peers on ViSP's own sequence, all from the same starts: how many end near the truth, how near,
-// and at what cost. Each family's best setting for each cell is its bar.
-//   anchors_bench [STARTS_PER_CELL [CASTLE_SIMU_FOLDER]]
+// Peers on three objects, all from the same starts: how many end near the truth, how near, and at
+// what cost. Each family's best setting for each cell is its bar.
+//   anchors_bench [STARTS_PER_CELL [SET...]]    SET: castle, facade, relief, cube; all of them
+// ViSP's pictures are looked for where VISP_INPUT_IMAGE_PATH says, as ViSP's own programs do.
 
 namespace groundglass {
 namespace {
@@ -42,18 +47,18 @@ struct Cell {
   int num_wrong_accepted = 0;  // accepted beyond 3 px
 };
 
-Cell Measure(const Castle& castle,
+Cell Measure(const AnchorSet& set,
              const std::vector<PerturbedStart>& starts,
              const Method& method) {
   Cell cell;
   std::vector<double> errors_px;
   std::vector<double> times_ms;
   for (const PerturbedStart& start : starts) {
-    const Camera truth = CameraFromTag(castle.frames[start.frame].tag, 640, 480);
+    const Camera truth = TrueCamera(set.frames[start.frame]);
     const double before_ms = ProcessCpuMs();
-    const Method::Found found = method.align(castle, start);
+    const Method::Found found = method.align(start);
     times_ms.push_back(ProcessCpuMs() - before_ms);
-    errors_px.push_back(VertexErrorPx(castle.model, truth, found.camera));
+    errors_px.push_back(VertexErrorPx(set.model, truth, found.camera));
     const double share = 1.0 / static_cast<double>(starts.size());
     if (errors_px.back() < 3) cell.share_within_3_px += share;
     if (errors_px.back() < 1) cell.share_within_1_px += share;
@@ -65,29 +70,36 @@ Cell Measure(const Castle& castle,
   return cell;
 }
 
-int Run(int num_starts, const std::filesystem::path& folder) {
-  const Castle castle = ReadCastle(folder);
+using Cells = std::vector<Cell>;
+
+// All settings on one set, printed as a table; returns each family's best setting for each cell.
+std::map<std::string, Cells> MeasureSet(const AnchorSet& set, int num_starts) {
   std::vector<std::vector<PerturbedStart>> starts;
   for (const double error_px : kCellsPx) {
-    starts.push_back(MakeStarts(castle, error_px, num_starts, 1988));
+    starts.push_back(MakeStarts(set, error_px, num_starts, 1988));
   }
-  std::vector<Method> methods = GroundglassMethods();
-  for (const Method& method : VispMethods()) methods.push_back(method);
-  for (const Method& method : OpenCvMethods()) methods.push_back(method);
+  std::vector<Method> methods = GroundglassMethods(set);
+  for (const Method& method : VispMethods(set)) methods.push_back(method);
+  for (const Method& method : OpenCvMethods(set)) methods.push_back(method);
 
-  std::printf("%zu faces, ", castle.model.faces.size());
-  std::printf("%d starts a cell; share within 3 px / within 1 px / median px / CPU ms\n",
+  std::printf("\n%s: %zu faces, %zu frames of %d x %d, ",
+              set.name.c_str(),
+              set.model.faces.size(),
+              set.frames.size(),
+              set.frames[0].grey8.width,
+              set.frames[0].grey8.height);
+  std::printf("%d starts a cell; within 3 px %% / within 1 px %% / median px / CPU ms\n",
               num_starts);
   std::printf("| %-11s | %-32s |", "method", "setting");
   for (const double error_px : kCellsPx) std::printf(" %20.0f px |", error_px);
-  std::printf("\n");
-  std::map<std::string, std::vector<Cell>> best_of_family;
+  std::printf("\n|---|---|---|---|---|---|\n");
+  std::map<std::string, Cells> best_of_family;
   for (const Method& method : methods) {
     std::printf("| %-11s | %-32s |", method.family.c_str(), method.setting.c_str());
-    std::vector<Cell>& best = best_of_family[method.family];
+    Cells& best = best_of_family[method.family];
     best.resize(std::size(kCellsPx));
     for (size_t i = 0; i < std::size(kCellsPx); ++i) {
-      const Cell cell = Measure(castle, starts[i], method);
+      const Cell cell = Measure(set, starts[i], method);
       std::printf(" %3.0f / %3.0f / %5.2f / %4.0f |",
                   100 * cell.share_within_3_px,
                   100 * cell.share_within_1_px,
@@ -101,18 +113,6 @@ int Run(int num_starts, const std::filesystem::path& folder) {
     }
     std::printf("\n");
   }
-  std::printf("\nThe best setting for each cell: share within 3 px (within 1 px)\n");
-  for (const auto& [family, cells] : best_of_family) {
-    std::printf("| %-11s |", family.c_str());
-    for (const Cell& cell : cells) {
-      std::printf(
-          " %3.0f %% (%3.0f %%) |", 100 * cell.share_within_3_px, 100 * cell.share_within_1_px);
-    }
-    std::printf(" median %.2f px from %.0f px | %.0f ms |\n",
-                cells[0].median_px,
-                kCellsPx[0],
-                cells[0].cpu_ms);
-  }
   for (size_t i = 0; i < std::size(kCellsPx); ++i) {
     const Cell& cell = best_of_family["Groundglass"][i];
     std::printf("Groundglass from %.0f px: %d of %d accepted, %d of them beyond 3 px\n",
@@ -121,6 +121,57 @@ int Run(int num_starts, const std::filesystem::path& folder) {
                 num_starts,
                 cell.num_wrong_accepted);
   }
+  return best_of_family;
+}
+
+// The head table: every family's best setting for each cell of each set.
+void PrintHeads(const std::vector<std::pair<std::string, std::map<std::string, Cells>>>& sets) {
+  std::printf(
+      "\nThe best setting for each cell: share within 3 px (within 1 px); median and CPU of the "
+      "first cell's best, CPU of the last's\n| set | method |");
+  for (const double error_px : kCellsPx) std::printf(" %.0f px |", error_px);
+  std::printf(
+      " median from %.0f px | CPU from %.0f px; %.0f px |\n|---|---|---|---|---|---|---|---|\n",
+      kCellsPx[0],
+      kCellsPx[0],
+      kCellsPx[std::size(kCellsPx) - 1]);
+  for (const auto& [set, families] : sets) {
+    for (const auto& [family, cells] : families) {
+      std::printf("| %s | %s |", set.c_str(), family.c_str());
+      for (const Cell& cell : cells) {
+        std::printf(
+            " %.0f %% (%.0f %%) |", 100 * cell.share_within_3_px, 100 * cell.share_within_1_px);
+      }
+      std::printf(" %.2f px | %.0f ms; %.0f ms |\n",
+                  cells[0].median_px,
+                  cells[0].cpu_ms,
+                  cells.back().cpu_ms);
+    }
+  }
+}
+
+AnchorSet MakeSet(const std::string& name) {
+  const char* images = std::getenv("VISP_INPUT_IMAGE_PATH");
+  const std::filesystem::path folder =
+      std::filesystem::path(images ? images : "/usr/share/visp-images-data") / "ViSP-images";
+  if (name == "castle") return ReadCastle(folder / "mbt-depth" / "Castle-simu");
+  if (name == "facade") return MakeFacade(0);
+  if (name == "relief") return MakeFacade(1);
+  if (name == "cube") {
+    Cube cube = ReadCube(folder / "mbt");
+    std::printf("\ncube: two references differ by %.2f px on average\n", cube.reference_spread_px);
+    return std::move(cube.set);
+  }
+  throw Error("no set is called " + name + "; there are castle, facade, relief and cube");
+}
+
+int Run(int num_starts, const std::vector<std::string>& names) {
+  std::vector<std::pair<std::string, std::map<std::string, Cells>>> heads;
+  for (const std::string& name : names) {
+    const AnchorSet set = MakeSet(name);
+    heads.emplace_back(set.name, MeasureSet(set, num_starts));
+  }
+  PrintHeads(heads);
   return 0;
 }
 
@@ -130,9 +181,9 @@ int Run(int num_starts, const std::filesystem::path& folder) {
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
   try {
-    return groundglass::Run(
-        argc > 1 ? std::max(2, std::atoi(argv[1])) : 50,
-        argc > 2 ? argv[2] : "/usr/share/visp-images-data/ViSP-images/mbt-depth/Castle-simu");
+    std::vector<std::string> names(argv + std::min(argc, 2), argv + argc);
+    if (names.empty()) names = {"castle", "facade", "relief", "cube"};
+    return groundglass::Run(argc > 1 ? std::max(2, std::atoi(argv[1])) : 50, names);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "anchors_bench: %s\n", error.what());
     return 1;

@@ -8,9 +8,7 @@
 #include "scene/view_io.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <random>
 
 namespace groundglass {
 namespace {
@@ -85,21 +83,6 @@ void TurnFacesTowards(const Eigen::Vector3d& eye, PolygonModel& model) {
   }
 }
 
-std::string FormatCao(const PolygonModel& model) {
-  std::string text = "V1\n" + std::to_string(model.points_in_world.size()) + "\n";
-  for (const Eigen::Vector3d& point : model.points_in_world) {
-    text += FormatNumber(point.x()) + " " + FormatNumber(point.y()) + " " +
-            FormatNumber(point.z()) + "\n";
-  }
-  text += "0\n0\n" + std::to_string(model.faces.size()) + "\n";
-  for (const Face& face : model.faces) {
-    text += std::to_string(face.points.size());
-    for (const int point : face.points) text += " " + std::to_string(point);
-    text += "\n";
-  }
-  return text + "0\n0\n";
-}
-
 Eigen::Matrix4d ReadPose(const std::filesystem::path& file) {
   Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
   const std::string text = ReadTextFile(file);
@@ -115,66 +98,20 @@ Eigen::Matrix4d ReadPose(const std::filesystem::path& file) {
   return pose;
 }
 
-// The tag with errors of so many standard deviations of the base sigmas.
-ViewTag Disturbed(const ViewTag& truth, const Eigen::Matrix<double, 7, 1>& errors) {
-  ViewTag tag = truth;
-  tag.position_in_site += errors.head<3>();
-  tag.lookat_in_site += errors.segment<3>(3);
-  tag.roll_deg += errors[6];
-  return tag;
-}
-
-// One standard deviation each for a scale of 1: position and look-at point in world units, roll in
-// degrees.
-constexpr double kBaseSigmaPosition = 1.0;
-constexpr double kBaseSigmaLookat = 0.5;
-constexpr double kBaseSigmaRollDeg = 0.5;
-
-Eigen::Matrix<double, 7, 1> DrawErrors(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  Eigen::Matrix<double, 7, 1> errors;
-  for (int i = 0; i < 7; ++i) {
-    errors[i] = normal(random) *
-                (i < 3 ? kBaseSigmaPosition : (i < 6 ? kBaseSigmaLookat : kBaseSigmaRollDeg));
-  }
-  return errors;
-}
-
-// The factor by which these errors make a vertex error of error_px.
-double ScaleTo(const Castle& castle,
-               const ViewTag& truth,
-               const Eigen::Matrix<double, 7, 1>& errors,
-               double error_px) {
-  const Camera true_camera = CameraFromTag(truth, 640, 480);
-  double low = 0;
-  double high = 50;
-  for (int step = 0; step < 50; ++step) {
-    const double scale = (low + high) / 2;
-    const Camera camera = CameraFromTag(Disturbed(truth, scale * errors), 640, 480);
-    (VertexErrorPx(castle.model, true_camera, camera) < error_px ? low : high) = scale;
-  }
-  return low;
-}
-
 }  // namespace
 
-Eigen::Matrix3d WorldFromVispAxes() {
-  Eigen::Matrix3d rotation;
-  rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  return rotation;
-}
-
-Castle ReadCastle(const std::filesystem::path& folder) {
-  Castle castle;
+AnchorSet ReadCastle(const std::filesystem::path& folder) {
+  AnchorSet castle;
+  castle.name = "castle";
+  castle.world_from_visp << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   PolygonModel& model = castle.model;
   model = ReadVrmlPolygons(folder / "Models/chateau.wrl");
   const Eigen::Matrix4d middle_pose = ReadPose(folder / "CameraPose" / "Camera_020.txt");
   TurnFacesTowards(
       -(middle_pose.topLeftCorner<3, 3>().transpose() * middle_pose.topRightCorner<3, 1>()), model);
-  castle.cao = FormatCao(model);
   model.unit = LengthUnit::kMetre;
   for (Eigen::Vector3d& point : model.points_in_world) {
-    point = kWorldPerVisp * (WorldFromVispAxes() * point);
+    point = kWorldPerVisp * (castle.world_from_visp * point);
   }
   for (int frame = 1; frame <= 40; ++frame) {
     char number[8];
@@ -190,57 +127,14 @@ Castle ReadCastle(const std::filesystem::path& folder) {
     // ViSP counts pixel centres from 0: its 319.5, 239.5 is the middle of the frame.
     camera.center_x_px = 320;
     camera.center_y_px = 240;
-    camera.cam_from_world.rotation = pose.topLeftCorner<3, 3>() * WorldFromVispAxes().transpose();
+    camera.cam_from_world.rotation =
+        pose.topLeftCorner<3, 3>() * castle.world_from_visp.transpose();
     camera.cam_from_world.translation = kWorldPerVisp * pose.topRightCorner<3, 1>();
     castle.frames.push_back(
         {ReadGrey8(folder / "Images" / (std::string("Image_") + number + ".pgm")),
          TagFromCamera(camera, camera.cam_from_world.translation.norm())});
   }
   return castle;
-}
-
-std::vector<PerturbedStart> MakeStarts(const Castle& castle,
-                                       double error_px,
-                                       int count,
-                                       uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::vector<PerturbedStart> starts;
-  std::vector<double> scales;
-  for (int i = 0; i < count; ++i) {
-    PerturbedStart& start = starts.emplace_back();
-    start.frame = static_cast<int>(i * castle.frames.size() / count);
-    const ViewTag& truth = castle.frames[start.frame].tag;
-    const Eigen::Matrix<double, 7, 1> errors = DrawErrors(random);
-    scales.push_back(ScaleTo(castle, truth, errors, error_px));
-    start.tag = Disturbed(truth, scales.back() * errors);
-  }
-  std::vector<double> sorted = scales;
-  std::sort(sorted.begin(), sorted.end());
-  const double scale = sorted[sorted.size() / 2];
-  for (PerturbedStart& start : starts) {
-    TagSigmas& sigmas = start.tag.sigmas;
-    sigmas.position = sigmas.height = kBaseSigmaPosition * scale;
-    sigmas.lookat = kBaseSigmaLookat * scale;
-    sigmas.roll_deg = kBaseSigmaRollDeg * scale;
-  }
-  return starts;
-}
-
-double VertexErrorPx(const PolygonModel& model, const Camera& truth, const Camera& found) {
-  double sum = 0;
-  int count = 0;
-  for (const Face& face : model.faces) {
-    for (const int corner : face.points) {
-      const Eigen::Vector3d& point = model.points_in_world[corner];
-      const auto a = Project(truth, point);
-      if (!a || !IsInsideFrame(truth, *a)) continue;
-      const auto b = Project(found, point);
-      if (!b) return 1e6;
-      sum += (*a - *b).norm();
-      ++count;
-    }
-  }
-  return count ? sum / count : 1e6;
 }
 
 }  // namespace groundglass

@@ -13,10 +13,10 @@ namespace groundglass {
 #ifdef GROUNDGLASS_HAS_RAPID
 namespace {
 
-Method::Found Track(const Castle& castle,
+Method::Found Track(const AnchorSet& set,
                     const PerturbedStart& start,
                     const std::vector<int>& ranges_px) {
-  const Image8& grey8 = castle.frames[start.frame].grey8;
+  const Image8& grey8 = set.frames[start.frame].grey8;
   const cv::Mat grey(grey8.height, grey8.width, CV_8UC1, const_cast<uint8_t*>(grey8.values.data()));
   cv::Mat picture;
   cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
@@ -24,18 +24,27 @@ Method::Found Track(const Castle& castle,
   Method::Found found{camera};
 
   std::vector<cv::Point3f> points;
-  for (const Eigen::Vector3d& point : castle.model.points_in_world) {
+  for (const Eigen::Vector3d& point : set.model.points_in_world) {
     points.emplace_back(static_cast<float>(point.x()),
                         static_cast<float>(point.y()),
                         static_cast<float>(point.z()));
   }
   std::vector<cv::Vec3i> triangles;
-  for (int face = 0; face < static_cast<int>(castle.model.faces.size()); ++face) {
-    for (const std::array<int, 3>& t : TriangulateFace(castle.model, face)) {
+  for (int face = 0; face < static_cast<int>(set.model.faces.size()); ++face) {
+    for (const std::array<int, 3>& t : TriangulateFace(set.model, face)) {
       triangles.emplace_back(t[0], t[1], t[2]);
     }
   }
-  const cv::Matx33f intrinsics(700, 0, 319.5f, 0, 700, 239.5f, 0, 0, 1);
+  // OpenCV counts pixel centres from 0.
+  const cv::Matx33d intrinsics(camera.focal_x_px,
+                               0,
+                               camera.center_x_px - 0.5,
+                               0,
+                               camera.focal_y_px,
+                               camera.center_y_px - 0.5,
+                               0,
+                               0,
+                               1);
   cv::Matx33d rotation;
   cv::Vec3d translation;
   for (int row = 0; row < 3; ++row) {
@@ -72,23 +81,22 @@ Method::Found Track(const Castle& castle,
 
 }  // namespace
 
-std::vector<Method> OpenCvMethods() {
+std::vector<Method> OpenCvMethods(const AnchorSet& set) {
   std::vector<Method> methods;
   for (const auto& [setting, ranges_px] :
        {std::pair<std::string, std::vector<int>>("rapid, range 10", {10}),
         {"rapid, range 20", {20}},
         {"rapid, range 40", {40}},
         {"rapid, range 60, 30, 15, 7", {60, 30, 15, 7}}}) {
-    methods.push_back({"OpenCV",
-                       setting,
-                       [ranges_px = ranges_px](const Castle& castle, const PerturbedStart& start) {
-                         return Track(castle, start, ranges_px);
-                       }});
+    methods.push_back(
+        {"OpenCV", setting, [&set, ranges_px = ranges_px](const PerturbedStart& start) {
+           return Track(set, start, ranges_px);
+         }});
   }
   return methods;
 }
 #else
-std::vector<Method> OpenCvMethods() { return {}; }
+std::vector<Method> OpenCvMethods(const AnchorSet&) { return {}; }
 #endif
 
 }  // namespace groundglass

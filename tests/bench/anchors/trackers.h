@@ -2,8 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/registration.h"
-#include "tests/bench/anchors/castle.h"
+#include "tests/bench/anchors/anchor_set.h"
 
 #include <functional>
 #include <string>
@@ -19,13 +18,15 @@ struct Method {
     Camera camera;
     bool is_accepted = true;  // only Groundglass judges itself
   };
-  std::function<Found(const Castle& castle, const PerturbedStart& start)> align;
+  std::function<Found(const PerturbedStart& start)> align;
 };
 
+// The methods hold on to the set, which must outlive them.
+
 // ViSP's model-based edge tracker: fixed search ranges, and ranges that shrink.
-std::vector<Method> VispMethods();
+std::vector<Method> VispMethods(const AnchorSet& set);
 // OpenCV's rapid; none where OpenCV was built without contrib.
-std::vector<Method> OpenCvMethods();
-std::vector<Method> GroundglassMethods();
+std::vector<Method> OpenCvMethods(const AnchorSet& set);
+std::vector<Method> GroundglassMethods(const AnchorSet& set);
 
 }  // namespace groundglass

@@ -14,7 +14,7 @@
 namespace groundglass {
 namespace {
 
-// Loading a model prints what is in it.
+// Loading a model prints what is in it, and tracking what it finds odd.
 class Quiet {
  public:
   Quiet() : stream_(std::cout.rdbuf(nullptr)) {}
@@ -37,6 +37,7 @@ VispPose TrackWithVisp(const VispTracking& tracking, const VispPose& start) {
   vpHomogeneousMatrix pose;
   for (int i = 0; i < 12; ++i) pose[i / 4][i % 4] = start[i];
   VispPose found = start;
+  const Quiet quiet;
   try {
     for (const int range_px : tracking.ranges_px) {
       vpMbGenericTracker tracker(1, vpMbGenericTracker::EDGE_TRACKER);
@@ -44,14 +45,14 @@ VispPose TrackWithVisp(const VispTracking& tracking, const VispPose& start) {
       me.setMaskSize(5);
       me.setMaskNumber(180);
       me.setRange(range_px);
-      me.setThreshold(10000);
+      me.setThreshold(tracking.edge_threshold);
       me.setMu1(0.5);
       me.setMu2(0.5);
       me.setSampleStep(4);
       tracker.setMovingEdge(me);
       vpCameraParameters lens;
       lens.initPersProjWithoutDistortion(
-          tracking.focal_px, tracking.focal_px, tracking.center_x_px, tracking.center_y_px);
+          tracking.focal_x_px, tracking.focal_y_px, tracking.center_x_px, tracking.center_y_px);
       tracker.setCameraParameters(lens);
       tracker.setAngleAppear(vpMath::rad(85));
       tracker.setAngleDisappear(vpMath::rad(89));
@@ -59,10 +60,7 @@ VispPose TrackWithVisp(const VispTracking& tracking, const VispPose& start) {
       tracker.setScanLineVisibilityTest(tracking.with_scan_lines);
       // Lost only where almost no site is left.
       tracker.setGoodMovingEdgesRatioThreshold(0.05);
-      {
-        const Quiet quiet;
-        tracker.loadModel(tracking.cao_file);
-      }
+      tracker.loadModel(tracking.cao_file);
       tracker.initFromPose(image, pose);
       for (int i = 0; i < tracking.repeats; ++i) {
         tracker.track(image);

@@ -16,9 +16,11 @@ struct VispTracking {
   int width_px = 0;
   int height_px = 0;
   const uint8_t* grey8 = nullptr;
-  double focal_px = 1;
+  double focal_x_px = 1;
+  double focal_y_px = 1;
   double center_x_px = 0;  // pixel centres at whole numbers, as ViSP counts
   double center_y_px = 0;
+  double edge_threshold = 10000;
   bool with_scan_lines = false;  // hidden lines by scan lines, not by the faces' angles alone
   std::vector<int> ranges_px;    // search ranges, in turn
   int repeats = 1;               // how often the picture is tracked with each
