@@ -76,6 +76,49 @@ void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::st
                  arguments.no_consensus,
                  "keep what only one photograph shows: trees, cars, shadows")
       ->group(group);
+  CLI::Option* tiles = command
+                           ->add_flag("--tiles",
+                                      arguments.tiles,
+                                      "also write tiles/, the texture database of 1988: NAME.tiles "
+                                      "for each photograph, 96 bytes a tile")
+                           ->group(group);
+  CLI::Option* record = command
+                            ->add_flag("--tile-record",
+                                       arguments.tile_record,
+                                       "also write tiles/ with the view transformations only: "
+                                       "tiles are computed when they are viewed")
+                            ->group(group);
+  tiles->excludes(record);
+  command
+      ->add_option("--downsample",
+                   arguments.tile_options.downsample,
+                   "of tiles: average this many pixels into one")
+      ->capture_default_str()
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->group(group);
+}
+
+void WriteTilesIfAsked(const BakeArguments& arguments,
+                       const PolygonModel& model,
+                       std::vector<BakePhotograph> photographs,
+                       const std::filesystem::path& out) {
+  const std::filesystem::path folder = out / "tiles";
+  std::filesystem::remove_all(folder);
+  if (!arguments.tiles && !arguments.tile_record) return;
+  const std::vector<std::vector<int>> faces =
+      PairFacesWithPhotographs(model, photographs, arguments.tile_options);
+  for (size_t i = 0; i < photographs.size(); ++i) photographs[i].faces = faces[i];
+  if (arguments.tile_record) {
+    WriteTileRecord(folder, {model, photographs, arguments.tile_options});
+    return;
+  }
+  const Visibility visibility(model);
+  for (const BakePhotograph& photograph : photographs) {
+    if (photograph.faces->empty()) continue;
+    WriteTiles(folder / (photograph.name + ".tiles"), [&](const TileSink& append) {
+      MakeTiles(model, visibility, photograph, *photograph.faces, arguments.tile_options, append);
+    });
+  }
 }
 
 void NarrowPhotographs(const BakeArguments& arguments,
@@ -103,6 +146,10 @@ void DescribeBake(const BakeArguments& arguments, Manifest& manifest) {
   manifest.options["accepted-only"] = yes(arguments.accepted_only);
   manifest.options["colour"] = yes(!arguments.no_colour);
   manifest.options["consensus"] = yes(!arguments.no_consensus);
+  if (arguments.tiles || arguments.tile_record) {
+    manifest.options["tiles"] = arguments.tiles ? "database" : "record";
+    manifest.options["downsample"] = std::to_string(arguments.tile_options.downsample);
+  }
   if (!arguments.masks_folder) return;
   for (const auto& entry : std::filesystem::directory_iterator(*arguments.masks_folder)) {
     if (!entry.is_regular_file()) continue;

@@ -4,6 +4,7 @@
 
 #include "invrender/bake_output.h"
 #include "invrender/invrender.h"
+#include "invrender/tiles.h"
 #include "scene/output_folder.h"
 #include "scene/scene_folder.h"
 
@@ -26,6 +27,9 @@ struct BakeArguments {
   bool accepted_only = false;
   bool no_colour = false;
   bool no_consensus = false;
+  bool tiles = false;
+  bool tile_record = false;
+  TileOptions tile_options;
 
   BakeOptions Options() const;
 };
@@ -39,6 +43,12 @@ void AddBakeArguments(CLI::App* command,
 void NarrowPhotographs(const BakeArguments& arguments,
                        const Scene& scene,
                        std::vector<BakePhotograph>& photographs);
+
+// Writes out/tiles/ if --tiles or --tile-record asks for it; removes what another run left there.
+void WriteTilesIfAsked(const BakeArguments& arguments,
+                       const PolygonModel& model,
+                       std::vector<BakePhotograph> photographs,
+                       const std::filesystem::path& out);
 
 // Adds the options, and the files that only they name, to a manifest.
 void DescribeBake(const BakeArguments& arguments, Manifest& manifest);

@@ -144,6 +144,7 @@ int RunInvrender(const InvrenderArguments& arguments) {
   const BakeResult result =
       BakeTextures(scene.model, photographs, options, MakeProgress(arguments.common, "texture"));
   WriteBake(result, arguments.out_folder, "." + arguments.bake.format);
+  WriteTilesIfAsked(arguments.bake, scene.model, photographs, arguments.out_folder);
   PrintSummary(result, photographs.size(), arguments.common.json);
   return kExitDone;
 }
@@ -167,6 +168,9 @@ void AddInvrenderCommand(CLI::App& app, int& exit_status) {
                       "the model as it was when the photographs were taken, if the building has "
                       "changed since: what both have is textured");
   AddBakeArguments(command, arguments->bake, "--only,--only-faces");
+  for (const char* tiles : {"--tiles", "--tile-record"}) {
+    command->get_option("--as-photographed")->excludes(command->get_option(tiles));
+  }
   AddCommonOptions(command, arguments->common);
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] { return RunInvrender(*arguments); });

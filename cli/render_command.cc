@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "invrender/tiles.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/scene_folder.h"
@@ -10,6 +11,7 @@
 #include "viewer/film.h"
 #include "viewer/overlay.h"
 #include "viewer/renderer.h"
+#include "viewer/tile_renderer.h"
 
 #include <nlohmann/json.hpp>
 
@@ -187,7 +189,41 @@ int RenderFilm(const RenderArguments& arguments) {
   return kExitDone;
 }
 
+// The tile files that a path stands for: itself, or those in the folder, in order.
+std::vector<fs::path> FindTileFiles(const fs::path& path) {
+  if (!fs::is_directory(path)) {
+    return path.extension() == ".tiles" ? std::vector<fs::path>{path} : std::vector<fs::path>();
+  }
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+    if (entry.path().extension() == ".tiles") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool IsTileRecord(const fs::path& path) { return fs::exists(path / "record.json"); }
+
+int RenderTiles(const RenderArguments& arguments) {
+  if (arguments.view_file.empty()) throw Error(arguments.model, "tiles are drawn from a --view");
+  const ViewTag tag = ReadView(arguments.view_file);
+  const ImageSize size = ChooseSize(arguments, tag.aspect);
+  const Camera camera = CameraFromTag(tag, size.width, size.height);
+  TileRenderer renderer(camera, arguments.render.supersampling);
+  const auto draw = [&](std::span<const Tile> tiles) { renderer.Draw(tiles); };
+  if (IsTileRecord(arguments.model)) {
+    RecomputeTiles(ReadTileRecord(arguments.model), camera, draw);
+  }
+  for (const fs::path& file : FindTileFiles(arguments.model)) draw(MappedTiles(file).Tiles());
+  if (!arguments.common.dry_run) WriteSrgb8(arguments.out, renderer.Picture());
+  Report(arguments, size, 1, {});
+  return kExitDone;
+}
+
 int RunRender(const RenderArguments& arguments) {
+  if (IsTileRecord(arguments.model) || !FindTileFiles(arguments.model).empty()) {
+    return RenderTiles(arguments);
+  }
   if (!arguments.path.empty()) {
     if (arguments.out.extension() != ".mp4") throw Error(arguments.out, "a film ends in .mp4");
     if (arguments.render.background == Background::kTransparent) {
@@ -210,7 +246,9 @@ void AddRenderCommand(CLI::App& app, int& exit_status) {
   CLI::App* command =
       app.add_subcommand("render", "Draw a model: stills from views, overlays, films");
   command
-      ->add_option("model", arguments->model, "an output folder, or a .glb, .obj, .osu, ... model")
+      ->add_option("model",
+                   arguments->model,
+                   "an output folder, its tiles/, or a .glb, .obj, .osu, ... model")
       ->required();
   command->add_option("-o,--out", arguments->out, "the picture (.png, .jpg, .tif) or film (.mp4)")
       ->required();

@@ -108,6 +108,7 @@ int Run(const RunArguments& arguments) {
     RenderStills(
         out, bake.model, registrations, arguments.num_stills, MakeProgress(common, "rendering"));
     WriteBake(bake, out, "." + arguments.baking.format);
+    WriteTilesIfAsked(arguments.baking, scene.model, photographs, out);
     if (!common.json) {
       std::printf("texture covers %.1f %% of the model's surface\n",
                   100 * bake.coverage.CoveredShare());
