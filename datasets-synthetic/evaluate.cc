@@ -65,13 +65,17 @@ void EvaluateCameras(const fs::path& found,
     const auto registration = registration_of_name.find(true_camera.name);
     if (registration != registration_of_name.end()) {
       photograph.verdict = registration->second.verdict;
-      photograph.start_px =
-          MeasureVertexError(model, true_camera.camera, registration->second.MeasuredCamera())
-              .mean_px;
+      const CameraErrors tag_errors =
+          MeasureCameraErrors(model, true_camera.camera, registration->second.MeasuredCamera());
+      photograph.start_px = tag_errors.vertex.mean_px;
       if (photograph.verdict != Verdict::kRejected) {
         photograph.sigmas = registration->second.sigmas;
         photograph.calibration =
             MeasureCalibration(photograph.errors.parameters, registration->second.covariance);
+        photograph.parameters = {tag_errors.parameters,
+                                 photograph.errors.parameters,
+                                 registration->second.prior_sigmas,
+                                 registration->second.covariance};
       }
       if (photograph.verdict == Verdict::kAccepted) {
         accepted_px.push_back(error_px);

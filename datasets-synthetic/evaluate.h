@@ -3,6 +3,7 @@
 #pragma once
 
 #include "datasets-synthetic/camera_errors.h"
+#include "datasets-synthetic/parameter_errors.h"
 #include "datasets-synthetic/picture_measures.h"
 #include "datasets-synthetic/texel_errors.h"
 #include "datasets-synthetic/truth.h"
@@ -28,6 +29,7 @@ struct PhotographEvaluation {
   std::optional<double> start_px;  // vertex error of the tag as measured
   std::optional<CameraParameters> sigmas;
   std::optional<Calibration> calibration;
+  std::optional<PhotographParameters> parameters;  // of those that are not rejected
   bool is_wrong_accepted = false;
 };
 

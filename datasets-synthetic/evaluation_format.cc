@@ -47,6 +47,14 @@ Sigmas CombineSigmas(const PhotographEvaluation& photograph) {
   return sigmas;
 }
 
+std::array<ParameterErrors, kNumCameraParameters> ParametersOf(const Evaluation& evaluation) {
+  std::vector<PhotographParameters> photographs;
+  for (const PhotographEvaluation& photograph : evaluation.photographs) {
+    if (photograph.parameters) photographs.push_back(*photograph.parameters);
+  }
+  return SummariseParameters(photographs);
+}
+
 std::string FormatSummary(const char* title, const ErrorSummary& summary) {
   return Printed("%s: mean %.2f px, median %.2f px, max %.2f px (%d photographs)\n",
                  title,
@@ -128,6 +136,7 @@ std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonMod
                     evaluation.num_inside_95,
                     evaluation.num_calibrated);
   }
+  text += FormatParameterTable(ParametersOf(evaluation), unit);
   for (const std::string& name : evaluation.missing) text += "no camera for " + name + "\n";
   if (!evaluation.faces.empty()) {
     double sum = 0;
@@ -216,6 +225,21 @@ std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonMode
   json["num_wrong_accepted"] = evaluation.num_wrong_accepted;
   json["num_inside_95"] = evaluation.num_inside_95;
   json["num_calibrated"] = evaluation.num_calibrated;
+  const std::array<ParameterErrors, kNumCameraParameters> parameters = ParametersOf(evaluation);
+  for (int i = 0; i < kNumCameraParameters && parameters[i].count > 0; ++i) {
+    const ParameterErrors& errors = parameters[i];
+    nlohmann::ordered_json entry = {{"rms_tag", errors.rms_tag},
+                                    {"rms_found", errors.rms_found},
+                                    {"rms_sigma", errors.rms_sigma},
+                                    {"rms_in_sigmas", errors.rms_in_sigmas},
+                                    {"worst_in_sigmas", errors.worst_in_sigmas},
+                                    {"sigma_over_prior", errors.sigma_over_prior}};
+    if (errors.partner >= 0) {
+      entry["partner"] = std::string(kCameraParameterNames[errors.partner]);
+      entry["partner_correlation"] = errors.partner_correlation;
+    }
+    json["parameters"][std::string(kCameraParameterNames[i])] = entry;
+  }
   json["faces"] = nlohmann::ordered_json::array();
   for (size_t i = 0; i < evaluation.faces.size(); ++i) {
     if (evaluation.faces[i].union_px == 0) continue;
