@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "scene/image_io.h"
 
-#include "scene/atomic_file.h"
+#include "scene/colour_profile.h"
 #include "scene/error.h"
 #include "scene/srgb.h"
 #include "scene/text.h"
@@ -16,6 +16,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 
 namespace groundglass {
 namespace {
@@ -71,12 +72,6 @@ Raster<T> Oriented(Raster<T> stored, int exif_code) {
   return oriented;
 }
 
-std::string OneLine(std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  while (!message.empty() && message.back() == ' ') message.pop_back();
-  return message.empty() ? "unknown reason" : message;
-}
-
 // A photograph file that is open, its header read and believable.
 class OpenImage {
  public:
@@ -114,6 +109,17 @@ class OpenImage {
     const std::string space = spec().get_string_attribute("oiio:ColorSpace");
     if (space == "Linear" || space == "scene_linear") return true;
     return spec().format.is_floating_point() && space != "sRGB";
+  }
+
+  // What its codes mean, if the file says so and they are not sRGB's.
+  std::optional<ColourProfile> Profile() const {
+    const OIIO::ParamValue* icc = spec().find_attribute("ICCProfile");
+    if (!icc || icc->type().basetype != OIIO::TypeDesc::UINT8) return std::nullopt;
+    ColourProfile profile({static_cast<const uint8_t*>(icc->data()), icc->type().size()},
+                          spec().nchannels < 3,
+                          file_);
+    if (profile.IsSrgb()) return std::nullopt;
+    return profile;
   }
 
   // All channels as the file has them, not yet oriented.
@@ -182,6 +188,15 @@ Raster<T> ColourOf(OpenImage& image, const Raster<T>& stored, Convert convert) {
   return Oriented(std::move(colour), image.ExifOrientation());
 }
 
+// sRGB codes of 8 or 16 bits.
+template <typename Code>
+Raster<Code> ReadCodes(OpenImage& image, OIIO::TypeDesc type) {
+  const std::optional<ColourProfile> profile = image.Profile();
+  Raster<Code> codes = ColourOf(image, image.Read<Code>(type), [](Code code) { return code; });
+  if (profile) profile->ToSrgb(codes);
+  return codes;
+}
+
 uint8_t CodeFromLinear(float linear) {
   return static_cast<uint8_t>(SrgbFromLinear(linear) * 255.0f + 0.5f);
 }
@@ -195,56 +210,7 @@ Image8 ReadOpenSrgb8(OpenImage& image) {
         radiance.values.begin(), radiance.values.end(), srgb8.values.begin(), CodeFromLinear);
     return srgb8;
   }
-  return ColourOf(image, image.Read<uint8_t>(OIIO::TypeUInt8), [](uint8_t v) { return v; });
-}
-
-void CheckSize(const std::filesystem::path& file, int width, int height) {
-  if (width < 1 || height < 1) throw Error(file, "cannot write an image without pixels");
-}
-
-// Writes through OpenImageIO; `file` is the name for messages, `target` where the bytes go.
-void WritePixels(const std::filesystem::path& file,
-                 const std::filesystem::path& target,
-                 OIIO::ImageSpec spec,
-                 OIIO::TypeDesc type,
-                 const void* pixels,
-                 const ImageWriteOptions& options,
-                 OIIO::Filesystem::IOProxy* proxy = nullptr) {
-  const std::string extension = LowerCase(file.extension().string());
-  if (extension == ".jpg" || extension == ".jpeg") {
-    spec.attribute("Compression", "jpeg:" + std::to_string(options.jpeg_quality));
-    spec.attribute("jpeg:subsampling", "4:4:4");
-  } else if (extension == ".png") {
-    spec.attribute("png:compressionLevel", 6);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-  } else if (extension == ".tif" || extension == ".tiff") {
-    spec.attribute("Compression", "zip");
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-  } else if (extension == ".exr") {
-    spec.attribute("Compression", "zip");
-  } else {
-    throw Error(file, "cannot write this kind of image; expected .jpg, .png, .tif or .exr");
-  }
-  spec.attribute("Software", "groundglass");
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(target.string());
-  if (!output) throw Error(file, "cannot write this image: " + OneLine(OIIO::geterror()));
-  if (proxy != nullptr) output->set_ioproxy(proxy);
-  if (!output->open(target.string(), spec) || !output->write_image(type, pixels) ||
-      !output->close()) {
-    throw Error(file, "cannot write this image: " + OneLine(output->geterror()));
-  }
-}
-
-OIIO::TypeDesc IntegerType(const std::filesystem::path& file, int bits) {
-  const std::string extension = LowerCase(file.extension().string());
-  if (bits != 8 && bits != 16) throw Error(file, "an image has 8 or 16 bits");
-  const bool is_jpeg = extension == ".jpg" || extension == ".jpeg";
-  if (is_jpeg && bits != 8) throw Error(file, "a JPEG has 8 bits; use .png or .tif for 16");
-  return bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8;
-}
-
-bool IsExr(const std::filesystem::path& file) {
-  return LowerCase(file.extension().string()) == ".exr";
+  return ReadCodes<uint8_t>(image, OIIO::TypeUInt8);
 }
 
 }  // namespace
@@ -268,8 +234,7 @@ ImageF ReadRadiance(const std::filesystem::path& file) {
     for (int code = 0; code < 256; ++code) {
       linear_of_code[code] = LinearFromSrgb(static_cast<float>(code) / 255.0f);
     }
-    const Image8 srgb8 =
-        ColourOf(image, image.Read<uint8_t>(OIIO::TypeUInt8), [](uint8_t value) { return value; });
+    const auto srgb8 = ReadCodes<uint8_t>(image, OIIO::TypeUInt8);
     ImageF radiance(srgb8.width, srgb8.height, 3);
     std::transform(
         srgb8.values.begin(), srgb8.values.end(), radiance.values.begin(), [&](uint8_t code) {
@@ -277,7 +242,13 @@ ImageF ReadRadiance(const std::filesystem::path& file) {
         });
     return radiance;
   }
-  return ColourOf(image, image.Read<float>(OIIO::TypeFloat), LinearFromSrgb);
+  const auto srgb16 = ReadCodes<uint16_t>(image, OIIO::TypeUInt16);
+  ImageF radiance(srgb16.width, srgb16.height, 3);
+  std::transform(
+      srgb16.values.begin(), srgb16.values.end(), radiance.values.begin(), [](uint16_t code) {
+        return LinearFromSrgb(static_cast<float>(code) / 65535.0f);
+      });
+  return radiance;
 }
 
 Image8 ReadSrgb8(const std::filesystem::path& file) {
@@ -315,66 +286,6 @@ Image16 ReadLabels(const std::filesystem::path& file) {
     throw Error(file, "a mask must have 8 or 16 bits of whole numbers");
   }
   return Oriented(std::move(labels), image.ExifOrientation());
-}
-
-void WriteRadiance(const std::filesystem::path& file,
-                   const ImageF& radiance,
-                   const ImageWriteOptions& options) {
-  CheckSize(file, radiance.width, radiance.height);
-  const OIIO::TypeDesc type = IsExr(file) ? OIIO::TypeHalf : IntegerType(file, options.bits);
-  const OIIO::ImageSpec spec(radiance.width, radiance.height, radiance.channels, type);
-  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
-    if (IsExr(file)) {
-      WritePixels(file, temporary, spec, OIIO::TypeFloat, radiance.values.data(), options);
-      return;
-    }
-    std::vector<float> encoded(radiance.values.size());
-    std::transform(radiance.values.begin(), radiance.values.end(), encoded.begin(), SrgbFromLinear);
-    WritePixels(file, temporary, spec, OIIO::TypeFloat, encoded.data(), options);
-  });
-}
-
-void WriteSrgb8(const std::filesystem::path& file,
-                const Image8& srgb8,
-                const ImageWriteOptions& options) {
-  CheckSize(file, srgb8.width, srgb8.height);
-  if (IsExr(file)) {
-    ImageF radiance(srgb8.width, srgb8.height, srgb8.channels);
-    std::transform(
-        srgb8.values.begin(), srgb8.values.end(), radiance.values.begin(), [](uint8_t code) {
-          return LinearFromSrgb(static_cast<float>(code) / 255.0f);
-        });
-    WriteRadiance(file, radiance, options);
-    return;
-  }
-  const OIIO::ImageSpec spec(
-      srgb8.width, srgb8.height, srgb8.channels, IntegerType(file, options.bits));
-  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
-    WritePixels(file, temporary, spec, OIIO::TypeUInt8, srgb8.values.data(), options);
-  });
-}
-
-void WriteLabels(const std::filesystem::path& file, const Image16& labels) {
-  CheckSize(file, labels.width, labels.height);
-  const OIIO::ImageSpec spec(labels.width, labels.height, labels.channels, OIIO::TypeUInt16);
-  IntegerType(file, 16);
-  if (IsExr(file)) throw Error(file, "labels are whole numbers; write them as .png or .tif");
-  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
-    WritePixels(file, temporary, spec, OIIO::TypeUInt16, labels.values.data(), {});
-  });
-}
-
-std::vector<uint8_t> EncodeImage(const Image8& srgb8,
-                                 const std::string& extension,
-                                 const ImageWriteOptions& options) {
-  const std::filesystem::path name = "image" + extension;
-  CheckSize(name, srgb8.width, srgb8.height);
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput proxy(bytes);
-  const OIIO::ImageSpec spec(
-      srgb8.width, srgb8.height, srgb8.channels, IntegerType(name, options.bits));
-  WritePixels(name, name, spec, OIIO::TypeUInt8, srgb8.values.data(), options, &proxy);
-  return bytes;
 }
 
 Image8 DecodeSrgb8(const std::vector<uint8_t>& bytes, const std::string& extension) {

@@ -16,7 +16,8 @@ struct ImageSize {
 };
 
 // All readers apply the file's orientation, and throw Error naming the file if it is missing,
-// damaged, or not an image. 8- and 16-bit, half and float; JPEG, PNG, TIFF, EXR.
+// damaged, or not an image. 8- and 16-bit, half and float; JPEG, PNG, TIFF, EXR. Those that give
+// colours heed the file's ICC profile, and throw Error for one that is damaged or does not fit.
 
 // Size only, without decoding the pixels; orientation applied.
 ImageSize ReadImageSize(const std::filesystem::path& file);

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
@@ -108,6 +109,12 @@ std::string Quote(std::string_view word) {
   }
   if (word.size() > kLongest) quoted += "...";
   return quoted + "'";
+}
+
+std::string OneLine(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  while (!message.empty() && message.back() == ' ') message.pop_back();
+  return message.empty() ? "unknown reason" : message;
 }
 
 }  // namespace groundglass

@@ -44,4 +44,7 @@ std::string Quote(std::string_view word);
 std::string_view TrimBlanks(std::string_view text);
 std::string LowerCase(std::string_view text);
 
+// A library's message on one line, without its end of line.
+std::string OneLine(std::string message);
+
 }  // namespace groundglass

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/atomic_file.h"
+#include "scene/error.h"
+#include "scene/image_io.h"
+#include "scene/srgb.h"
+#include "scene/text.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace groundglass {
+namespace {
+
+void CheckSize(const std::filesystem::path& file, int width, int height) {
+  if (width < 1 || height < 1) throw Error(file, "cannot write an image without pixels");
+}
+
+// Writes through OpenImageIO; `file` is the name for messages, `target` where the bytes go.
+void WritePixels(const std::filesystem::path& file,
+                 const std::filesystem::path& target,
+                 OIIO::ImageSpec spec,
+                 OIIO::TypeDesc type,
+                 const void* pixels,
+                 const ImageWriteOptions& options,
+                 OIIO::Filesystem::IOProxy* proxy = nullptr) {
+  const std::string extension = LowerCase(file.extension().string());
+  if (extension == ".jpg" || extension == ".jpeg") {
+    spec.attribute("Compression", "jpeg:" + std::to_string(options.jpeg_quality));
+    spec.attribute("jpeg:subsampling", "4:4:4");
+  } else if (extension == ".png") {
+    spec.attribute("png:compressionLevel", 6);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+  } else if (extension == ".tif" || extension == ".tiff") {
+    spec.attribute("Compression", "zip");
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+  } else if (extension == ".exr") {
+    spec.attribute("Compression", "zip");
+  } else {
+    throw Error(file, "cannot write this kind of image; expected .jpg, .png, .tif or .exr");
+  }
+  spec.attribute("Software", "groundglass");
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(target.string());
+  if (!output) throw Error(file, "cannot write this image: " + OneLine(OIIO::geterror()));
+  if (proxy != nullptr) output->set_ioproxy(proxy);
+  if (!output->open(target.string(), spec) || !output->write_image(type, pixels) ||
+      !output->close()) {
+    throw Error(file, "cannot write this image: " + OneLine(output->geterror()));
+  }
+}
+
+OIIO::TypeDesc IntegerType(const std::filesystem::path& file, int bits) {
+  const std::string extension = LowerCase(file.extension().string());
+  if (bits != 8 && bits != 16) throw Error(file, "an image has 8 or 16 bits");
+  const bool is_jpeg = extension == ".jpg" || extension == ".jpeg";
+  if (is_jpeg && bits != 8) throw Error(file, "a JPEG has 8 bits; use .png or .tif for 16");
+  return bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8;
+}
+
+bool IsExr(const std::filesystem::path& file) {
+  return LowerCase(file.extension().string()) == ".exr";
+}
+
+}  // namespace
+
+void WriteRadiance(const std::filesystem::path& file,
+                   const ImageF& radiance,
+                   const ImageWriteOptions& options) {
+  CheckSize(file, radiance.width, radiance.height);
+  const OIIO::TypeDesc type = IsExr(file) ? OIIO::TypeHalf : IntegerType(file, options.bits);
+  const OIIO::ImageSpec spec(radiance.width, radiance.height, radiance.channels, type);
+  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
+    if (IsExr(file)) {
+      WritePixels(file, temporary, spec, OIIO::TypeFloat, radiance.values.data(), options);
+      return;
+    }
+    std::vector<float> encoded(radiance.values.size());
+    std::transform(radiance.values.begin(), radiance.values.end(), encoded.begin(), SrgbFromLinear);
+    WritePixels(file, temporary, spec, OIIO::TypeFloat, encoded.data(), options);
+  });
+}
+
+void WriteSrgb8(const std::filesystem::path& file,
+                const Image8& srgb8,
+                const ImageWriteOptions& options) {
+  CheckSize(file, srgb8.width, srgb8.height);
+  if (IsExr(file)) {
+    ImageF radiance(srgb8.width, srgb8.height, srgb8.channels);
+    std::transform(
+        srgb8.values.begin(), srgb8.values.end(), radiance.values.begin(), [](uint8_t code) {
+          return LinearFromSrgb(static_cast<float>(code) / 255.0f);
+        });
+    WriteRadiance(file, radiance, options);
+    return;
+  }
+  const OIIO::ImageSpec spec(
+      srgb8.width, srgb8.height, srgb8.channels, IntegerType(file, options.bits));
+  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
+    WritePixels(file, temporary, spec, OIIO::TypeUInt8, srgb8.values.data(), options);
+  });
+}
+
+void WriteLabels(const std::filesystem::path& file, const Image16& labels) {
+  CheckSize(file, labels.width, labels.height);
+  const OIIO::ImageSpec spec(labels.width, labels.height, labels.channels, OIIO::TypeUInt16);
+  IntegerType(file, 16);
+  if (IsExr(file)) throw Error(file, "labels are whole numbers; write them as .png or .tif");
+  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
+    WritePixels(file, temporary, spec, OIIO::TypeUInt16, labels.values.data(), {});
+  });
+}
+
+std::vector<uint8_t> EncodeImage(const Image8& srgb8,
+                                 const std::string& extension,
+                                 const ImageWriteOptions& options) {
+  const std::filesystem::path name = "image" + extension;
+  CheckSize(name, srgb8.width, srgb8.height);
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput proxy(bytes);
+  const OIIO::ImageSpec spec(
+      srgb8.width, srgb8.height, srgb8.channels, IntegerType(name, options.bits));
+  WritePixels(name, name, spec, OIIO::TypeUInt8, srgb8.values.data(), options, &proxy);
+  return bytes;
+}
+
+}  // namespace groundglass
