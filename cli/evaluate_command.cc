@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "datasets-synthetic/calibration_plot.h"
 #include "datasets-synthetic/error_plot.h"
 #include "datasets-synthetic/evaluate.h"
 #include "datasets-synthetic/trials.h"
@@ -23,7 +24,9 @@ struct EvaluateArguments {
   std::string found;
   std::string truth;
   std::string model;
-  std::string plot_file;  // empty: none
+  std::string plot_file;            // empty: none
+  std::string calibration_file;     // the same, of trials
+  std::vector<std::string> beside;  // JSON of other trials, for the calibration plot
   // Monte-Carlo trials of registration; 0: none. `found` is then the scene itself.
   int num_trials = 0;
   TrialOptions trials;
@@ -38,6 +41,12 @@ fs::path FindModel(const fs::path& truth_folder) {
     if (fs::exists(file)) return file;
   }
   throw Error(scene_folder, "no model beside the truth folder; name it with --model");
+}
+
+// "wiesner" of "scenes/wiesner/".
+std::string SceneName(const fs::path& folder) {
+  const fs::path whole = fs::absolute(folder / ".").lexically_normal();
+  return whole.parent_path().filename().string();
 }
 
 const char* UnitName(const PolygonModel& model) {
@@ -85,6 +94,13 @@ int RunTrialsOfScene(const EvaluateArguments& arguments) {
                                         "Trials of " + arguments.found + ", px at 640 wide",
                                         UnitName(scene.model)));
   }
+  if (!arguments.calibration_file.empty()) {
+    std::vector<CalibrationCurve> curves = {CalibrationCurveOf(SceneName(arguments.found), trials)};
+    for (const std::string& file : arguments.beside) {
+      curves.push_back(ReadCalibrationCurve(fs::path(file).stem().string(), file));
+    }
+    WriteFileAtomically(arguments.calibration_file, FormatCalibrationPlot(curves));
+  }
   std::fputs(arguments.common.json ? FormatTrialsJson(trials, options).c_str()
                                    : FormatTrialsTable(trials, options).c_str(),
              stdout);
@@ -105,9 +121,10 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
   command->add_option("--model", arguments->model, "the polygon model, if not beside the truth");
   command->add_option("--plot", arguments->plot_file, "SVG of errors against start and claims");
   AddCommonOptions(command, arguments->common);
-  command->add_option("--trials",
-                      arguments->num_trials,
-                      "register FOUND, a scene folder, from this many notebooks drawn by chance");
+  CLI::Option* trials = command->add_option(
+      "--trials",
+      arguments->num_trials,
+      "register FOUND, a scene folder, from this many notebooks drawn by chance");
   command
       ->add_option("--sigma-position",
                    arguments->trials.sigma_position,
@@ -127,6 +144,18 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
                       arguments->trials.num_blunders,
                       "tags of each trial's notebook that hold a blunder: swapped coordinates, a "
                       "wrong sign, another photograph's numbers");
+  CLI::Option* calibration =
+      command
+          ->add_option("--calibration",
+                       arguments->calibration_file,
+                       "SVG of how many truths the trials' ellipsoids hold, by claimed confidence")
+          ->needs(trials);
+  command
+      ->add_option("--beside",
+                   arguments->beside,
+                   "JSON that other trials have printed: more curves for --calibration")
+      ->delimiter(',')
+      ->needs(calibration);
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] {
       return arguments->num_trials > 0 ? RunTrialsOfScene(*arguments) : EvaluateFound(*arguments);

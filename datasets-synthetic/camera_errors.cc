@@ -4,18 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace groundglass {
 namespace {
 
-// The 95 % point of the chi-squared distribution, to 0.1 % (Wilson and Hilferty 1931).
-double ChiSquared95(int degrees_of_freedom) {
-  const double n = degrees_of_freedom;
-  if (degrees_of_freedom == 1) return 3.8415;
-  if (degrees_of_freedom == 2) return 5.9915;
-  const double root = 1 - 2 / (9 * n) + 1.6448536 * std::sqrt(2 / (9 * n));
-  return n * root * root * root;
+// How much of the chi-squared distribution lies above a value: the sum that the recurrence of the
+// incomplete gamma function gives for whole degrees of freedom (Abramowitz and Stegun 26.4.4-5).
+double ChiSquaredTail(double value, int degrees_of_freedom) {
+  const double half = value / 2;
+  const bool is_odd = degrees_of_freedom % 2 == 1;
+  double tail = is_odd ? std::erfc(std::sqrt(half)) : std::exp(-half);
+  // half^(n/2) exp(-half) / gamma(n/2 + 1), for n from 1 or 2 on in steps of 2.
+  double term = std::exp(-half) * (is_odd ? 2 * std::sqrt(half / std::numbers::pi) : half);
+  for (int n = is_odd ? 1 : 2; n < degrees_of_freedom; n += 2) {
+    tail += term;
+    term *= half / (n / 2.0 + 1);
+  }
+  return tail;
 }
 
 // An angle's difference brought to [-180, 180).
@@ -84,8 +91,11 @@ std::optional<Calibration> MeasureCalibration(const CameraParameters& errors,
   Calibration calibration;
   calibration.degrees_of_freedom = n;
   calibration.mahalanobis_squared = standardised.dot(correlation.ldlt().solve(standardised));
-  calibration.is_inside_95 =
-      calibration.mahalanobis_squared >= 0 && calibration.mahalanobis_squared <= ChiSquared95(n);
+  // Rounding may take a covariance that is all but singular below zero: it holds nothing then.
+  calibration.confidence = calibration.mahalanobis_squared >= 0
+                               ? 1 - ChiSquaredTail(calibration.mahalanobis_squared, n)
+                               : 1;
+  calibration.is_inside_95 = calibration.confidence <= 0.95;
   return calibration;
 }
 

@@ -40,7 +40,9 @@ CameraErrors MeasureCameraErrors(const PolygonModel& model,
 struct Calibration {
   double mahalanobis_squared = 0;
   int degrees_of_freedom = 0;  // parameters with a variance
-  bool is_inside_95 = false;   // of the covariance's ellipsoid
+  // The level, 0 to 1, of the covariance's smallest ellipsoid that holds the truth.
+  double confidence = 0;
+  bool is_inside_95 = false;  // of the 95 % ellipsoid
 };
 // Nothing if the covariance is zero. Parameters without variance are left out.
 std::optional<Calibration> MeasureCalibration(const CameraParameters& errors,

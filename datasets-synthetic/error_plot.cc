@@ -2,9 +2,10 @@
 // Part of Groundglass.
 #include "datasets-synthetic/error_plot.h"
 
+#include "datasets-synthetic/svg.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace groundglass {
 namespace {
@@ -12,20 +13,6 @@ namespace {
 constexpr double kSide = 330;  // of a panel, in the picture's units
 constexpr double kMargin = 64;
 constexpr double kTop = 54;
-
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '<') {
-      escaped += "&lt;";
-    } else if (c == '&') {
-      escaped += "&amp;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
 
 // Both axes cover the same whole decades, so that equal errors lie on the diagonal.
 struct Panel {
@@ -40,13 +27,6 @@ struct Panel {
   double X(double value) const { return left + kSide * Share(value); }
   double Y(double value) const { return kTop + kSide * (1 - Share(value)); }
 };
-
-template <typename... Values>
-void Append(std::string& text, const char* format, Values... values) {
-  char buffer[600];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  text += buffer;
-}
 
 Panel PanelFor(double left, const std::vector<double>& values) {
   Panel panel{left, -1, 1};
@@ -63,46 +43,47 @@ void DrawAxes(const Panel& panel,
               const std::string& x_label,
               const std::string& y_label,
               std::string& svg) {
-  Append(svg,
-         "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" "
-         "stroke=\"#444\"/>\n",
-         panel.left,
-         kTop,
-         kSide,
-         kSide);
+  AppendSvg(svg,
+            "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" "
+            "stroke=\"#444\"/>\n",
+            panel.left,
+            kTop,
+            kSide,
+            kSide);
   for (int decade = panel.low_decade; decade <= panel.high_decade; ++decade) {
     const double value = std::pow(10.0, decade);
     const double x = panel.X(value);
     const double y = panel.Y(value);
-    Append(svg,
-           "<path d=\"M%.1f %.1fV%.1fM%.1f %.1fH%.1f\" stroke=\"#ddd\" fill=\"none\"/>\n",
-           x,
-           kTop,
-           kTop + kSide,
-           panel.left,
-           y,
-           panel.left + kSide);
-    Append(svg,
-           "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%g</text>\n",
-           x,
-           kTop + kSide + 16,
-           value);
-    Append(svg,
-           "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%g</text>\n",
-           panel.left - 6,
-           y + 4,
-           value);
+    AppendSvg(svg,
+              "<path d=\"M%.1f %.1fV%.1fM%.1f %.1fH%.1f\" stroke=\"#ddd\" fill=\"none\"/>\n",
+              x,
+              kTop,
+              kTop + kSide,
+              panel.left,
+              y,
+              panel.left + kSide);
+    AppendSvg(svg,
+              "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%g</text>\n",
+              x,
+              kTop + kSide + 16,
+              value);
+    AppendSvg(svg,
+              "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%g</text>\n",
+              panel.left - 6,
+              y + 4,
+              value);
   }
-  Append(svg,
-         "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n",
-         panel.left + kSide / 2,
-         kTop + kSide + 36,
-         Escaped(x_label).c_str());
-  Append(svg,
-         "<text transform=\"translate(%.1f %.1f) rotate(-90)\" text-anchor=\"middle\">%s</text>\n",
-         panel.left - 44,
-         kTop + kSide / 2,
-         Escaped(y_label).c_str());
+  AppendSvg(svg,
+            "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n",
+            panel.left + kSide / 2,
+            kTop + kSide + 36,
+            EscapedForSvg(x_label).c_str());
+  AppendSvg(
+      svg,
+      "<text transform=\"translate(%.1f %.1f) rotate(-90)\" text-anchor=\"middle\">%s</text>\n",
+      panel.left - 44,
+      kTop + kSide / 2,
+      EscapedForSvg(y_label).c_str());
 }
 
 // The line y = factor * x within the panel.
@@ -117,20 +98,20 @@ void DrawProportion(const Panel& panel,
   const double x0 = std::max(low, low / factor);
   const double x1 = std::min(high, high / factor);
   if (x0 >= x1) return;
-  Append(svg,
-         "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"%s\" stroke-dasharray=\"5 4\"/>\n",
-         panel.X(x0),
-         panel.Y(x0 * factor),
-         panel.X(x1),
-         panel.Y(x1 * factor),
-         color);
+  AppendSvg(svg,
+            "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"%s\" stroke-dasharray=\"5 4\"/>\n",
+            panel.X(x0),
+            panel.Y(x0 * factor),
+            panel.X(x1),
+            panel.Y(x1 * factor),
+            color);
   // Beside the line, this share of its way up.
-  Append(svg,
-         "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\" fill=\"%s\">%s</text>\n",
-         std::lerp(panel.X(x0), panel.X(x1), label_at) - 8,
-         std::lerp(panel.Y(x0 * factor), panel.Y(x1 * factor), label_at),
-         color,
-         label);
+  AppendSvg(svg,
+            "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\" fill=\"%s\">%s</text>\n",
+            std::lerp(panel.X(x0), panel.X(x1), label_at) - 8,
+            std::lerp(panel.Y(x0 * factor), panel.Y(x1 * factor), label_at),
+            color,
+            label);
 }
 
 const char* ColorOf(const std::optional<Verdict>& verdict) {
@@ -141,18 +122,18 @@ const char* ColorOf(const std::optional<Verdict>& verdict) {
 
 void DrawPoint(
     const Panel& panel, double x, double y, const ErrorPlotPoint& point, std::string& svg) {
-  Append(svg,
-         "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\" fill-opacity=\"0.7\">",
-         panel.X(x),
-         panel.Y(y),
-         ColorOf(point.verdict));
-  Append(svg,
-         "<title>%s: %.3g, %.3g%s%s</title></circle>\n",
-         Escaped(point.name).c_str(),
-         x,
-         y,
-         point.verdict ? ", " : "",
-         point.verdict ? std::string(VerdictName(*point.verdict)).c_str() : "");
+  AppendSvg(svg,
+            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\" fill-opacity=\"0.7\">",
+            panel.X(x),
+            panel.Y(y),
+            ColorOf(point.verdict));
+  AppendSvg(svg,
+            "<title>%s: %.3g, %.3g%s%s</title></circle>\n",
+            EscapedForSvg(point.name).c_str(),
+            x,
+            y,
+            point.verdict ? ", " : "",
+            point.verdict ? std::string(VerdictName(*point.verdict)).c_str() : "");
 }
 
 }  // namespace
@@ -209,19 +190,7 @@ std::string FormatErrorPlot(const std::vector<ErrorPlotPoint>& points,
   const Panel claims = PanelFor(2 * kMargin + kSide + 16, lengths);
   const double width = claims.left + kSide + 24;
   const double height = kTop + kSide + 76;
-  std::string svg;
-  Append(svg,
-         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" "
-         "height=\"%.0f\" font-family=\"sans-serif\" font-size=\"12\">\n",
-         width,
-         height,
-         width,
-         height);
-  svg += "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-  Append(svg,
-         "<text x=\"%.1f\" y=\"26\" font-size=\"16\">%s</text>\n",
-         kMargin,
-         Escaped(title).c_str());
+  std::string svg = SvgHead(width, height, kMargin, title);
   DrawAxes(errors, "vertex error at the start, px", "vertex error found, px", svg);
   DrawProportion(errors, 1, "#888888", "nothing gained", 0.9, svg);
   DrawAxes(claims, "claimed sigma of position, " + unit, "error of position, " + unit, svg);
@@ -246,15 +215,15 @@ std::string FormatErrorPlot(const std::vector<ErrorPlotPoint>& points,
           return point.verdict == v;
         });
     if (!is_there) continue;
-    Append(svg,
-           "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/>"
-           "<text x=\"%.1f\" y=\"%.1f\">%s</text>\n",
-           x,
-           height - 14,
-           ColorOf(verdict),
-           x + 8,
-           height - 10,
-           name);
+    AppendSvg(svg,
+              "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/>"
+              "<text x=\"%.1f\" y=\"%.1f\">%s</text>\n",
+              x,
+              height - 14,
+              ColorOf(verdict),
+              x + 8,
+              height - 10,
+              name);
     x += 90;
   }
   return svg + "</svg>\n";

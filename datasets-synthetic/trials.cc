@@ -57,8 +57,8 @@ TrialBin CountTrials(const std::vector<Trial>& trials, double low_px, double hig
     bin.num_within_3_px += trial.end_at_640_px <= 3;
     bin.num_accepted += trial.verdict == Verdict::kAccepted;
     bin.num_wrong_accepted += trial.is_wrong_accepted;
-    bin.num_calibrated += trial.is_calibrated;
-    bin.num_inside_95 += trial.is_inside_95;
+    bin.num_calibrated += trial.confidence.has_value();
+    bin.num_inside_95 += trial.IsInside95();
   }
   if (ends.empty()) return bin;
   std::sort(ends.begin(), ends.end());
@@ -154,8 +154,7 @@ std::vector<Trial> RunTrials(const Scene& scene,
       // not drawn from the sigmas that its tag states.
       if (trial.verdict == Verdict::kAccepted && trial.blunder == Blunder::kNone) {
         const auto calibration = MeasureCalibration(errors.parameters, registration.covariance);
-        trial.is_calibrated = calibration.has_value();
-        trial.is_inside_95 = calibration && calibration->is_inside_95;
+        if (calibration) trial.confidence = calibration->confidence;
       }
       trials.push_back(trial);
     }
@@ -279,6 +278,8 @@ std::string FormatTrialsJson(const std::vector<Trial>& trials, const TrialOption
   }
   json["trials"] = nlohmann::ordered_json::array();
   for (const Trial& trial : trials) {
+    nlohmann::ordered_json confidence;
+    if (trial.confidence) confidence = *trial.confidence;
     json["trials"].push_back({{"name", trial.name},
                               {"notebook", trial.notebook},
                               {"start_px", trial.start_px},
@@ -288,7 +289,8 @@ std::string FormatTrialsJson(const std::vector<Trial>& trials, const TrialOption
                               {"blunder", std::string(BlunderName(trial.blunder))},
                               {"verdict", std::string(VerdictName(trial.verdict))},
                               {"wrong_accepted", trial.is_wrong_accepted},
-                              {"inside_95", trial.is_inside_95}});
+                              {"confidence", confidence},
+                              {"inside_95", trial.IsInside95()}});
   }
   return json.dump(2) + "\n";
 }

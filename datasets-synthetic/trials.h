@@ -8,6 +8,7 @@
 #include "scene/progress.h"
 #include "scene/scene_folder.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,9 @@ struct Trial {
   Blunder blunder = Blunder::kNone;
   Verdict verdict = Verdict::kRejected;
   bool is_wrong_accepted = false;
-  bool is_calibrated = false;  // has a covariance to be judged
-  bool is_inside_95 = false;
+  // Calibration::confidence, where a covariance is judged.
+  std::optional<double> confidence;
+  bool IsInside95() const { return confidence && *confidence <= 0.95; }
 };
 
 // Registers the scene's photographs from many notebooks. Photographs without truth are left out.

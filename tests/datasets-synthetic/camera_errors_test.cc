@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace groundglass {
 namespace {
 
@@ -78,6 +80,27 @@ TEST(Calibration, OneParameterIsInsideUpToOnePointNineSixSigma) {
   EXPECT_TRUE(inside->is_inside_95);
   errors[2] = 0.197;
   EXPECT_FALSE(MeasureCalibration(errors, covariance)->is_inside_95);
+}
+
+// From tables of the chi-squared distribution: 1.386 and 5.991 with 2 degrees of freedom, 0.584 and
+// 7.815 with 3, 10.341 and 19.675 with 11.
+TEST(Calibration, ConfidenceIsTheChiSquaredDistributions) {
+  const auto confidence = [](int num_parameters, double mahalanobis_squared) {
+    CameraCovariance covariance = CameraCovariance::Zero();
+    CameraParameters errors = CameraParameters::Zero();
+    errors[0] = std::sqrt(mahalanobis_squared);
+    for (int i = 0; i < num_parameters; ++i) covariance(i, i) = 1;
+    return MeasureCalibration(errors, covariance)->confidence;
+  };
+  EXPECT_NEAR(confidence(1, 1), 0.6827, 1e-4);
+  EXPECT_NEAR(confidence(2, 1.386), 0.5, 1e-3);
+  EXPECT_NEAR(confidence(2, 5.991), 0.95, 1e-4);
+  EXPECT_NEAR(confidence(3, 0.584), 0.1, 1e-3);
+  EXPECT_NEAR(confidence(3, 7.815), 0.95, 1e-4);
+  EXPECT_NEAR(confidence(11, 10.341), 0.5, 1e-3);
+  EXPECT_NEAR(confidence(11, 19.675), 0.95, 1e-4);
+  EXPECT_EQ(confidence(11, 0), 0);
+  EXPECT_NEAR(confidence(11, 1e4), 1, 1e-12);
 }
 
 TEST(Calibration, CorrelatedErrorsAlongTheLongAxisAreSmall) {
