@@ -17,16 +17,17 @@ namespace {
 // Loading a model prints what is in it, and tracking what it finds odd.
 class Quiet {
  public:
-  Quiet() : stream_(std::cout.rdbuf(nullptr)) {}
+  explicit Quiet(std::ostream& stream) : stream_(stream), buffer_(stream.rdbuf(nullptr)) {}
   ~Quiet() {
-    std::cout.rdbuf(stream_);
-    std::cout.clear();
+    stream_.rdbuf(buffer_);
+    stream_.clear();
   }
   Quiet(const Quiet&) = delete;
   Quiet& operator=(const Quiet&) = delete;
 
  private:
-  std::streambuf* stream_;
+  std::ostream& stream_;
+  std::streambuf* buffer_;
 };
 
 }  // namespace
@@ -37,7 +38,8 @@ VispPose TrackWithVisp(const VispTracking& tracking, const VispPose& start) {
   vpHomogeneousMatrix pose;
   for (int i = 0; i < 12; ++i) pose[i / 4][i % 4] = start[i];
   VispPose found = start;
-  const Quiet quiet;
+  const Quiet quiet_output(std::cout);
+  const Quiet quiet_errors(std::cerr);
   try {
     for (const int range_px : tracking.ranges_px) {
       vpMbGenericTracker tracker(1, vpMbGenericTracker::EDGE_TRACKER);
