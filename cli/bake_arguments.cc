@@ -3,6 +3,7 @@
 #include "cli/bake_arguments.h"
 
 #include "invrender/selection.h"
+#include "scene/error.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -19,6 +20,9 @@ std::string Join(const std::vector<std::string>& words) {
 }  // namespace
 
 BakeOptions BakeArguments::Options() const {
+  if (options.bits == 16 && format == "jpg") {
+    throw Error("a JPEG has 8 bits; give --format png, tif or exr with --bits 16");
+  }
   BakeOptions result = options;
   result.match_colour = !no_colour;
   result.reject_occluders = !no_consensus;
@@ -58,6 +62,13 @@ void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::st
   command->add_option("--format", arguments.format, "of the OBJ's pages; the GLB's are always JPEG")
       ->capture_default_str()
       ->check(CLI::IsMember({"jpg", "png", "tif", "exr"}))
+      ->group(group);
+  command
+      ->add_option("--bits",
+                   arguments.options.bits,
+                   "16: read photographs and write pages with 16 bits a channel (png, tif; exr)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({8, 16}))
       ->group(group);
   command
       ->add_flag("--fill",
@@ -142,6 +153,7 @@ void DescribeBake(const BakeArguments& arguments, Manifest& manifest) {
   manifest.options["exclude"] = Join(arguments.exclude);
   manifest.options["only"] = Join(arguments.only);
   manifest.options["format"] = arguments.format;
+  manifest.options["bits"] = std::to_string(arguments.options.bits);
   manifest.options["fill"] = yes(arguments.options.fill_gaps);
   manifest.options["accepted-only"] = yes(arguments.accepted_only);
   manifest.options["colour"] = yes(!arguments.no_colour);

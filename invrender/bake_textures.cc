@@ -182,12 +182,14 @@ void FinishCoverage(const PolygonModel& model, const Visibility& visibility, Cov
 TexturedModel MakeTexturedModel(const PolygonModel& model,
                                 const std::vector<Chart>& charts,
                                 const std::vector<int>& chart_of_face,
-                                const std::vector<PageSize>& page_sizes) {
+                                const std::vector<PageSize>& page_sizes,
+                                int bits) {
   TexturedModel textured;
   textured.model = model;
   for (const PageSize& size : page_sizes) {
     TexturePage& page = textured.pages.emplace_back();
     page.srgb8 = Image8(size.width, size.height, 3);
+    if (bits == 16) page.srgb16 = Image16(size.width, size.height, 3);
     page.provenance = Image16(size.width, size.height, 1);
   }
   textured.faces.resize(model.faces.size());
@@ -216,6 +218,7 @@ void BakeOptions::Check() const {
   if (!(border_margin_px >= 0 && border_margin_px <= 20)) {
     throw Error("border_margin_px must be from 0 to 20");
   }
+  if (bits != 8 && bits != 16) throw Error("bits must be 8 or 16");
   if (max_memory_mb < 0) throw Error("max_memory_mb must be 0 (no limit) or more");
   if (!(frame_margin >= 0 && frame_margin < 0.4)) throw Error("frame_margin must be in [0, 0.4)");
 }
@@ -245,7 +248,8 @@ BakeResult BakeTextures(const PolygonModel& model,
   const int num_charts = static_cast<int>(charts.size());
   Steps steps(progress, static_cast<int>(sorted.size()) + 1 + num_charts);
   const bool is_limited = options.max_memory_mb > 0;
-  PhotoCache cache(ImageFiles(sorted), is_limited ? 0 : std::numeric_limits<size_t>::max());
+  PhotoCache cache(
+      ImageFiles(sorted), is_limited ? 0 : std::numeric_limits<size_t>::max(), options.bits);
   const std::vector<PreparedPhoto> photos = PreparePhotos(model,
                                                           sorted,
                                                           visibility,
@@ -256,8 +260,8 @@ BakeResult BakeTextures(const PolygonModel& model,
                                                           steps);
   ChooseTexelSizes(model, photos, options, charts);
   if (is_limited) {
-    const MemoryPlan plan =
-        PlanMemory(charts, photos, static_cast<size_t>(options.max_memory_mb) * 1000000);
+    const MemoryPlan plan = PlanMemory(
+        charts, photos, static_cast<size_t>(options.max_memory_mb) * 1000000, options.bits);
     result.texel_scale = plan.texel_scale;
     for (Chart& chart : charts) {
       if (chart.texel_size > 0) chart.SetTexelSize(chart.texel_size * plan.texel_scale);
@@ -278,7 +282,7 @@ BakeResult BakeTextures(const PolygonModel& model,
   const ColourModel& printed = options.match_colour ? matched : neutral;
 
   // Fill the pages.
-  result.model = MakeTexturedModel(model, charts, chart_of_face, page_sizes);
+  result.model = MakeTexturedModel(model, charts, chart_of_face, page_sizes, options.bits);
   result.coverage = StartCoverage(model, charts, chart_of_face);
   ForEach(num_charts, options, [&](int i) {
     const Chart& chart = charts[i];

@@ -74,6 +74,49 @@ void SpreadDistances(Image8& steps) {
   for (int y = steps.height - 1; y >= 0; --y) sweep(y);
 }
 
+template <typename Code>
+Image8 FindDarkRim(const Raster<Code>& srgb) {
+  constexpr int kDark = 32 << (8 * (sizeof(Code) - 1));
+  constexpr double kDarkShare = 0.5;  // of a side, to be a mount's
+  constexpr double kDeepest = 0.1;    // of the frame's width
+  const int width = srgb.width;
+  const int height = srgb.height;
+  const int depth = static_cast<int>(kDeepest * std::min(width, height));
+  const auto is_dark = [&](int x, int y) {
+    const Code* pixel = srgb.At(x, y);
+    return std::max({pixel[0], pixel[1], pixel[2]}) < kDark;
+  };
+  Image8 mount(width, height, 1);
+  // From each side inwards, as far as a column (or row) stays dark.
+  const auto walk = [&](int count, auto position) {
+    int num_dark = 0;
+    for (int i = 0; i < count; ++i) {
+      const auto [x, y] = position(i, 1);
+      num_dark += is_dark(x, y) ? 1 : 0;
+    }
+    if (num_dark < kDarkShare * count) return;
+    for (int i = 0; i < count; ++i) {
+      for (int in = 0; in < depth; ++in) {
+        const auto [x, y] = position(i, in);
+        if (in > 1 && !is_dark(x, y)) break;
+        *mount.At(x, y) = 255;
+      }
+    }
+  };
+  using Position = std::pair<int, int>;
+  if (depth < 2) return mount;
+  walk(height, [&](int i, int in) { return Position(in, i); });
+  walk(height, [&](int i, int in) { return Position(width - 1 - in, i); });
+  walk(width, [&](int i, int in) { return Position(i, in); });
+  walk(width, [&](int i, int in) { return Position(i, height - 1 - in); });
+  cv::Mat view(height, width, CV_8U, mount.values.data());
+  const int reach = std::max(2, static_cast<int>(std::lround(0.004 * width)));
+  cv::dilate(view.clone(),
+             view,
+             cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
+  return mount;
+}
+
 }  // namespace
 
 Image8 ComputeBorderDistance(const PolygonModel& model,
@@ -129,46 +172,7 @@ Image8 ComputeBorderDistance(const PolygonModel& model,
   return border;
 }
 
-Image8 FindMount(const Image8& srgb8) {
-  constexpr int kDark = 32;
-  constexpr double kDarkShare = 0.5;  // of a side, to be a mount's
-  constexpr double kDeepest = 0.1;    // of the frame's width
-  const int width = srgb8.width;
-  const int height = srgb8.height;
-  const int depth = static_cast<int>(kDeepest * std::min(width, height));
-  const auto is_dark = [&](int x, int y) {
-    const uint8_t* pixel = srgb8.At(x, y);
-    return std::max({pixel[0], pixel[1], pixel[2]}) < kDark;
-  };
-  Image8 mount(width, height, 1);
-  // From each side inwards, as far as a column (or row) stays dark.
-  const auto walk = [&](int count, auto position) {
-    int num_dark = 0;
-    for (int i = 0; i < count; ++i) {
-      const auto [x, y] = position(i, 1);
-      num_dark += is_dark(x, y) ? 1 : 0;
-    }
-    if (num_dark < kDarkShare * count) return;
-    for (int i = 0; i < count; ++i) {
-      for (int in = 0; in < depth; ++in) {
-        const auto [x, y] = position(i, in);
-        if (in > 1 && !is_dark(x, y)) break;
-        *mount.At(x, y) = 255;
-      }
-    }
-  };
-  using Position = std::pair<int, int>;
-  if (depth < 2) return mount;
-  walk(height, [&](int i, int in) { return Position(in, i); });
-  walk(height, [&](int i, int in) { return Position(width - 1 - in, i); });
-  walk(width, [&](int i, int in) { return Position(i, in); });
-  walk(width, [&](int i, int in) { return Position(i, height - 1 - in); });
-  cv::Mat view(height, width, CV_8U, mount.values.data());
-  const int reach = std::max(2, static_cast<int>(std::lround(0.004 * width)));
-  cv::dilate(view.clone(),
-             view,
-             cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
-  return mount;
-}
+Image8 FindMount(const Image8& srgb8) { return FindDarkRim(srgb8); }
+Image8 FindMount(const Image16& srgb16) { return FindDarkRim(srgb16); }
 
 }  // namespace groundglass

@@ -29,5 +29,6 @@ Image8 ComputeBorderDistance(const PolygonModel& model,
 // that is dark along most of its length, and no farther in than a tenth of the frame. Widened by
 // a few pixels, where the mount's edge is blurred.
 Image8 FindMount(const Image8& srgb8);
+Image8 FindMount(const Image16& srgb16);
 
 }  // namespace groundglass

@@ -232,7 +232,11 @@ ChartPixels ComposeChart(const Chart& chart,
   const int width = chart.width_texels;
   const int height = chart.height_texels;
   ChartPixels pixels;
-  pixels.srgb8 = Image8(width, height, 3);
+  if (options.bits == 16) {
+    pixels.srgb16 = Image16(width, height, 3);
+  } else {
+    pixels.srgb8 = Image8(width, height, 3);
+  }
   pixels.provenance = Image16(width, height, 1);
   pixels.states = Raster<uint8_t>(width, height, 1);
   pixels.reach = Raster<uint8_t>(width, height, 1);
@@ -310,8 +314,11 @@ ChartPixels ComposeChart(const Chart& chart,
     }
     tbb::parallel_for(0, num_rows, [&](int row) {
       const float* from = radiance.At(0, row);
-      uint8_t* to = pixels.srgb8.At(0, y0 + row);
-      for (int i = 0; i < 3 * width; ++i) to[i] = Srgb8FromRadiance(from[i]);
+      if (options.bits == 16) {
+        std::transform(from, from + 3 * width, pixels.srgb16.At(0, y0 + row), Srgb16FromRadiance);
+      } else {
+        std::transform(from, from + 3 * width, pixels.srgb8.At(0, y0 + row), Srgb8FromRadiance);
+      }
     });
   }
 

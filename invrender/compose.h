@@ -30,7 +30,8 @@ struct FaceSource {
 
 // A chart's texels, ready to be copied to its page.
 struct ChartPixels {
-  Image8 srgb8;
+  Image8 srgb8;        // empty if there is srgb16
+  Image16 srgb16;      // BakeOptions::bits
   Image16 provenance;  // photo + 1, or kProvenanceNone
   Raster<uint8_t> states;
   Raster<uint8_t> reach;            // of weak texels: how many texels away good ones may be

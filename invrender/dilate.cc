@@ -8,20 +8,22 @@
 namespace groundglass {
 namespace {
 
+template <typename Code>
 struct Spot {
   int x;
   int y;
-  uint8_t colour[3];
+  Code colour[3];
   uint16_t provenance;
 };
 
 // One ring: every texel that `wants` a colour and has neighbours that are `known` gets their mean.
 // Returns the texels that were filled; they become known.
-std::vector<Spot> GrowRing(const std::vector<std::pair<int, int>>& candidates,
-                           const Image8& srgb8,
-                           const Image16& provenance,
-                           const Raster<uint8_t>& known) {
-  std::vector<Spot> filled;
+template <typename Code>
+std::vector<Spot<Code>> GrowRing(const std::vector<std::pair<int, int>>& candidates,
+                                 const Raster<Code>& srgb,
+                                 const Image16& provenance,
+                                 const Raster<uint8_t>& known) {
+  std::vector<Spot<Code>> filled;
   for (const auto& [x, y] : candidates) {
     int sum[3] = {0, 0, 0};
     int count = 0;
@@ -29,14 +31,14 @@ std::vector<Spot> GrowRing(const std::vector<std::pair<int, int>>& candidates,
     for (int j = std::max(0, y - 1); j <= std::min(known.height - 1, y + 1); ++j) {
       for (int i = std::max(0, x - 1); i <= std::min(known.width - 1, x + 1); ++i) {
         if (!*known.At(i, j)) continue;
-        for (int c = 0; c < 3; ++c) sum[c] += srgb8.At(i, j)[c];
+        for (int c = 0; c < 3; ++c) sum[c] += srgb.At(i, j)[c];
         if (source == kProvenanceNone) source = *provenance.At(i, j);
         ++count;
       }
     }
     if (count == 0) continue;
-    Spot spot{x, y, {}, source};
-    for (int c = 0; c < 3; ++c) spot.colour[c] = static_cast<uint8_t>((sum[c] + count / 2) / count);
+    Spot<Code> spot{x, y, {}, source};
+    for (int c = 0; c < 3; ++c) spot.colour[c] = static_cast<Code>((sum[c] + count / 2) / count);
     filled.push_back(spot);
   }
   return filled;
@@ -44,7 +46,8 @@ std::vector<Spot> GrowRing(const std::vector<std::pair<int, int>>& candidates,
 
 // Grows colour from `known` into `wanted`, ring by ring; each wanted texel's value is the last ring
 // that may reach it.
-void Grow(Image8& srgb8,
+template <typename Code>
+void Grow(Raster<Code>& srgb,
           Image16& provenance,
           Raster<uint8_t>& known,
           Raster<uint8_t>& wanted,
@@ -68,22 +71,69 @@ void Grow(Image8& srgb8,
   }
   for (int ring = 1; !frontier.empty(); ++ring) {
     std::erase_if(frontier, [&](const auto& at) { return *wanted.At(at.first, at.second) < ring; });
-    const std::vector<Spot> filled = GrowRing(frontier, srgb8, provenance, known);
-    for (const Spot& spot : filled) {
-      std::copy(spot.colour, spot.colour + 3, srgb8.At(spot.x, spot.y));
+    const std::vector<Spot<Code>> filled = GrowRing(frontier, srgb, provenance, known);
+    for (const Spot<Code>& spot : filled) {
+      std::copy(spot.colour, spot.colour + 3, srgb.At(spot.x, spot.y));
       if (!keep_provenance) *provenance.At(spot.x, spot.y) = spot.provenance;
       *known.At(spot.x, spot.y) = 1;
       *wanted.At(spot.x, spot.y) = 0;
       *queued.At(spot.x, spot.y) = 1;
     }
     frontier.clear();
-    for (const Spot& spot : filled) {
+    for (const Spot<Code>& spot : filled) {
       neighbours(spot.x, spot.y, [&](int i, int j) {
         if (*wanted.At(i, j) == 0 || *queued.At(i, j)) return;
         *queued.At(i, j) = 1;
         frontier.emplace_back(i, j);
       });
     }
+  }
+}
+
+void Grow(ChartPixels& pixels,
+          Raster<uint8_t>& known,
+          Raster<uint8_t>& wanted,
+          bool keep_provenance) {
+  if (pixels.srgb16.Empty()) {
+    Grow(pixels.srgb8, pixels.provenance, known, wanted, keep_provenance);
+  } else {
+    Grow(pixels.srgb16, pixels.provenance, known, wanted, keep_provenance);
+  }
+}
+
+// The chart with its gutter, in the codes that it has.
+template <typename Code>
+void Place(const Chart& chart,
+           const ChartPixels& pixels,
+           const Raster<Code>& chart_srgb,
+           int gutter_texels,
+           TexturePage& page,
+           Raster<Code>& page_srgb) {
+  const int width = chart.width_texels + 2 * gutter_texels;
+  const int height = chart.height_texels + 2 * gutter_texels;
+  Raster<Code> srgb(width, height, 3);
+  Image16 provenance(width, height, 1);
+  Raster<uint8_t> known(width, height, 1);
+  Raster<uint8_t> wanted(width, height, 1, static_cast<uint8_t>(gutter_texels));
+  for (int y = 0; y < chart.height_texels; ++y) {
+    for (int x = 0; x < chart.width_texels; ++x) {
+      const int to_x = x + gutter_texels;
+      const int to_y = y + gutter_texels;
+      const auto state = static_cast<TexelState>(*pixels.states.At(x, y));
+      if (state == TexelState::kOutside) continue;
+      *wanted.At(to_x, to_y) = 0;
+      if (state == TexelState::kOpen) continue;
+      std::copy_n(chart_srgb.At(x, y), 3, srgb.At(to_x, to_y));
+      *provenance.At(to_x, to_y) = *pixels.provenance.At(x, y);
+      *known.At(to_x, to_y) = 1;
+    }
+  }
+  Grow(srgb, provenance, known, wanted, true);
+  for (int y = 0; y < height; ++y) {
+    const int page_y = chart.y_on_page - gutter_texels + y;
+    const int page_x = chart.x_on_page - gutter_texels;
+    std::copy_n(srgb.At(0, y), 3 * width, page_srgb.At(page_x, page_y));
+    std::copy_n(provenance.At(0, y), width, page.provenance.At(page_x, page_y));
   }
 }
 
@@ -97,7 +147,7 @@ void SpreadIntoWeakTexels(ChartPixels& pixels) {
     known.values[i] = state == TexelState::kGood;
     wanted.values[i] = state == TexelState::kWeak ? pixels.reach.values[i] : 0;
   }
-  Grow(pixels.srgb8, pixels.provenance, known, wanted, false);
+  Grow(pixels, known, wanted, false);
 }
 
 void CloseSlits(ChartPixels& pixels) {
@@ -137,7 +187,7 @@ void CloseSlits(ChartPixels& pixels) {
     }
   }
   if (slits.empty()) return;
-  Grow(pixels.srgb8, pixels.provenance, known, wanted, true);
+  Grow(pixels, known, wanted, true);
   for (const size_t i : slits) {
     if (!known.values[i]) continue;
     pixels.provenance.values[i] = kProvenanceFilled;
@@ -149,31 +199,20 @@ void PlaceOnPage(const Chart& chart,
                  const ChartPixels& pixels,
                  int gutter_texels,
                  TexturePage& page) {
-  const int width = chart.width_texels + 2 * gutter_texels;
-  const int height = chart.height_texels + 2 * gutter_texels;
-  Image8 srgb8(width, height, 3);
-  Image16 provenance(width, height, 1);
-  Raster<uint8_t> known(width, height, 1);
-  Raster<uint8_t> wanted(width, height, 1, static_cast<uint8_t>(gutter_texels));
-  for (int y = 0; y < chart.height_texels; ++y) {
-    for (int x = 0; x < chart.width_texels; ++x) {
-      const int to_x = x + gutter_texels;
-      const int to_y = y + gutter_texels;
-      const auto state = static_cast<TexelState>(*pixels.states.At(x, y));
-      if (state == TexelState::kOutside) continue;
-      *wanted.At(to_x, to_y) = 0;
-      if (state == TexelState::kOpen) continue;
-      std::copy_n(pixels.srgb8.At(x, y), 3, srgb8.At(to_x, to_y));
-      *provenance.At(to_x, to_y) = *pixels.provenance.At(x, y);
-      *known.At(to_x, to_y) = 1;
-    }
+  if (pixels.srgb16.Empty()) {
+    Place(chart, pixels, pixels.srgb8, gutter_texels, page, page.srgb8);
+    return;
   }
-  Grow(srgb8, provenance, known, wanted, true);
-  for (int y = 0; y < height; ++y) {
-    const int page_y = chart.y_on_page - gutter_texels + y;
-    const int page_x = chart.x_on_page - gutter_texels;
-    std::copy_n(srgb8.At(0, y), 3 * width, page.srgb8.At(page_x, page_y));
-    std::copy_n(provenance.At(0, y), width, page.provenance.At(page_x, page_y));
+  Place(chart, pixels, pixels.srgb16, gutter_texels, page, page.srgb16);
+  // The same in 8 bits.
+  const int x0 = chart.x_on_page - gutter_texels;
+  const int num_codes = 3 * (chart.width_texels + 2 * gutter_texels);
+  for (int y = -gutter_texels; y < chart.height_texels + gutter_texels; ++y) {
+    const uint16_t* from = page.srgb16.At(x0, chart.y_on_page + y);
+    std::transform(
+        from, from + num_codes, page.srgb8.At(x0, chart.y_on_page + y), [](uint16_t code) {
+          return static_cast<uint8_t>((code + 128) / 257);
+        });
   }
 }
 

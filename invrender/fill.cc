@@ -8,9 +8,32 @@
 #include <algorithm>
 
 namespace groundglass {
+namespace {
+
+// All that is unknown (not 0), in place.
+void PaintOver(const cv::Mat& unknown, ChartPixels& pixels) {
+  constexpr double kRadius = 4;  // texels that speak for one
+  cv::Mat painted;
+  if (pixels.srgb16.Empty()) {
+    cv::Mat srgb8(unknown.rows, unknown.cols, CV_8UC3, pixels.srgb8.values.data());
+    cv::inpaint(srgb8, unknown, painted, kRadius, cv::INPAINT_TELEA);
+    painted.copyTo(srgb8, unknown);
+    return;
+  }
+  // With 16 bits OpenCV does one channel at a time.
+  cv::Mat srgb16(unknown.rows, unknown.cols, CV_16UC3, pixels.srgb16.values.data());
+  for (int channel = 0; channel < 3; ++channel) {
+    cv::Mat plane;
+    cv::extractChannel(srgb16, plane, channel);
+    cv::inpaint(plane, unknown, painted, kRadius, cv::INPAINT_TELEA);
+    painted.copyTo(plane, unknown);
+    cv::insertChannel(plane, srgb16, channel);
+  }
+}
+
+}  // namespace
 
 void FillOpenTexels(ChartPixels& pixels) {
-  constexpr double kRadius = 4;  // texels that speak for one
   const auto is_state = [&](size_t i, TexelState state) {
     return static_cast<TexelState>(pixels.states.values[i]) == state;
   };
@@ -30,12 +53,9 @@ void FillOpenTexels(ChartPixels& pixels) {
     }
   }
   if (num_open == 0 || num_known == 0) return;
-  const cv::Mat srgb8(height, width, CV_8UC3, pixels.srgb8.values.data());
-  cv::Mat painted;
-  cv::inpaint(srgb8, unknown, painted, kRadius, cv::INPAINT_TELEA);
+  PaintOver(unknown, pixels);
   for (size_t i = 0; i < pixels.states.values.size(); ++i) {
     if (!is_state(i, TexelState::kOpen)) continue;
-    std::copy_n(painted.data + 3 * i, 3, &pixels.srgb8.values[3 * i]);
     pixels.provenance.values[i] = kProvenanceFilled;
     pixels.states.values[i] = static_cast<uint8_t>(TexelState::kWeak);
   }

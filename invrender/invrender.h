@@ -61,6 +61,9 @@ struct BakeOptions {
   bool smooth_seams = true;
   // Paints over what no photograph shows, from what lies around it; provenance says so.
   bool fill_gaps = false;
+  // 16: photographs are read, and pages made, with 16 bits a channel (TexturePage::srgb16); takes
+  // twice the memory for both.
+  int bits = 8;
 
   // The model as it was when the photographs were taken, where it has changed since, in the same
   // frame and unit. Photographs then texture what both have; what is new stays plain.

@@ -16,6 +16,9 @@ constexpr double kMegabyte = 1e6;
 constexpr double kProgramBytes = 200 * kMegabyte;
 // A page's texel: colour and provenance; charts do not fill their pages.
 constexpr double kPageBytes = 5 * 1.2;
+// What 16 bits add to it, and to a chart.
+constexpr double kWidePageBytes = 6 * 1.2;
+constexpr double kWideChartBytes = 6;
 // The same again while a chart is laid out, with states, seams' graph and so on.
 constexpr double kChartBytes = 31;
 // Choosing, for each cell and photograph.
@@ -32,7 +35,9 @@ constexpr double kLargestScale = 8;
 
 MemoryPlan PlanMemory(const std::vector<Chart>& charts,
                       const std::vector<PreparedPhoto>& photos,
-                      size_t max_bytes) {
+                      size_t max_bytes,
+                      int bits) {
+  const bool is_wide = bits == 16;
   constexpr double kCellsOfTexel = 1.0 / (kCellTexels * kCellTexels);
   double all_charts = 0;
   double largest_chart = 0;
@@ -42,8 +47,11 @@ MemoryPlan PlanMemory(const std::vector<Chart>& charts,
     const auto num_views =
         static_cast<double>(FindPhotosOfChart(charts[i], static_cast<int>(i), photos).size());
     const double cells = num_texels * kCellsOfTexel * num_views;
-    all_charts += num_texels * kPageBytes + cells * sizeof(CellView);
-    largest_chart = std::max(largest_chart, num_texels * kChartBytes + cells * kChoiceBytes);
+    all_charts +=
+        num_texels * (kPageBytes + (is_wide ? kWidePageBytes : 0)) + cells * sizeof(CellView);
+    largest_chart = std::max(
+        largest_chart,
+        num_texels * (kChartBytes + (is_wide ? kWideChartBytes : 0)) + cells * kChoiceBytes);
   }
   double fixed = kProgramBytes + kBandBytes;
   double largest_photo = 0;

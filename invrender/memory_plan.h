@@ -22,6 +22,7 @@ struct MemoryPlan {
 // is below what any bake of these photographs needs.
 MemoryPlan PlanMemory(const std::vector<Chart>& charts,
                       const std::vector<PreparedPhoto>& photos,
-                      size_t max_bytes);
+                      size_t max_bytes,
+                      int bits);
 
 }  // namespace groundglass

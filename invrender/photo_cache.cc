@@ -8,8 +8,8 @@
 
 namespace groundglass {
 
-PhotoCache::PhotoCache(std::vector<std::filesystem::path> files, size_t max_bytes)
-    : max_bytes_(max_bytes) {
+PhotoCache::PhotoCache(std::vector<std::filesystem::path> files, size_t max_bytes, int bits)
+    : max_bytes_(max_bytes), bits_(bits) {
   for (std::filesystem::path& file : files) {
     entries_.push_back(std::make_unique<Entry>());
     entries_.back()->file = std::move(file);
@@ -28,8 +28,10 @@ std::shared_ptr<const PhotoPyramid> PhotoCache::Get(int photo) {
   if (auto pyramid = find()) return pyramid;
   std::shared_ptr<const PhotoPyramid> pyramid;
   // Isolated: this thread must not take up other work that waits for the same photograph.
-  tbb::this_task_arena::isolate(
-      [&] { pyramid = std::make_shared<const PhotoPyramid>(ReadSrgb8(entry.file)); });
+  tbb::this_task_arena::isolate([&] {
+    pyramid = bits_ == 16 ? std::make_shared<const PhotoPyramid>(ReadSrgb16(entry.file))
+                          : std::make_shared<const PhotoPyramid>(ReadSrgb8(entry.file));
+  });
   const std::lock_guard<std::mutex> lock(mutex_);
   ++num_decoded_;
   num_bytes_ += pyramid->NumBytes();

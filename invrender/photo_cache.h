@@ -18,13 +18,15 @@ namespace groundglass {
 // still holds stays in memory until it is let go. Safe to use from many threads.
 class PhotoCache {
  public:
-  PhotoCache(std::vector<std::filesystem::path> files, size_t max_bytes);
+  // bits: 8 or 16, of the decoded photographs' channels.
+  PhotoCache(std::vector<std::filesystem::path> files, size_t max_bytes, int bits = 8);
 
   // Throws Error for a file that cannot be read.
   std::shared_ptr<const PhotoPyramid> Get(int photo);
 
   void SetMaxBytes(size_t max_bytes);
 
+  int bits() const { return bits_; }
   size_t num_bytes() const;
   long num_decoded() const;
 
@@ -40,6 +42,7 @@ class PhotoCache {
 
   mutable std::mutex mutex_;
   size_t max_bytes_;
+  const int bits_;
   size_t num_bytes_ = 0;
   long num_decoded_ = 0;
   std::vector<std::unique_ptr<Entry>> entries_;

@@ -11,17 +11,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace groundglass {
 namespace {
 
-const std::array<float, 256>& RadianceTable() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values;
-    for (int i = 0; i < 256; ++i) values[i] = LinearFromSrgb(i / 255.0f);
+// Radiance of each code.
+template <typename Code>
+const float* RadianceTable() {
+  constexpr int kNumCodes = std::numeric_limits<Code>::max() + 1;
+  static const std::vector<float> table = [] {
+    std::vector<float> values(kNumCodes);
+    for (int i = 0; i < kNumCodes; ++i) {
+      values[i] = LinearFromSrgb(static_cast<float>(i) / (kNumCodes - 1));
+    }
     return values;
   }();
-  return table;
+  return table.data();
 }
 
 constexpr int kEncodeSteps = 16384;
@@ -37,9 +43,13 @@ const std::vector<uint8_t>& EncodeTable() {
   return table;
 }
 
-Image8 Halve(const Image8& full) {
-  Image8 half(std::max(1, full.width / 2), std::max(1, full.height / 2), 3);
-  const std::array<float, 256>& radiance = RadianceTable();
+void Encode(float radiance, uint8_t& code) { code = Srgb8FromRadiance(radiance); }
+void Encode(float radiance, uint16_t& code) { code = Srgb16FromRadiance(radiance); }
+
+template <typename Code>
+Raster<Code> Halve(const Raster<Code>& full) {
+  Raster<Code> half(std::max(1, full.width / 2), std::max(1, full.height / 2), 3);
+  const float* radiance = RadianceTable<Code>();
   tbb::parallel_for(0, half.height, [&](int y) {
     const int y0 = 2 * y;
     const int y1 = std::min(2 * y + 1, full.height - 1);
@@ -49,37 +59,26 @@ Image8 Halve(const Image8& full) {
       for (int c = 0; c < 3; ++c) {
         const float sum = radiance[full.At(x0, y0)[c]] + radiance[full.At(x1, y0)[c]] +
                           radiance[full.At(x0, y1)[c]] + radiance[full.At(x1, y1)[c]];
-        half.At(x, y)[c] = Srgb8FromRadiance(sum / 4);
+        Encode(sum / 4, half.At(x, y)[c]);
       }
     }
   });
   return half;
 }
 
-}  // namespace
-
-uint8_t Srgb8FromRadiance(float radiance) {
-  const float clamped = std::clamp(radiance, 0.0f, 1.0f);
-  return EncodeTable()[static_cast<int>(clamped * kEncodeSteps + 0.5f)];
-}
-
-float RadianceFromSrgb8(uint8_t srgb8) { return RadianceTable()[srgb8]; }
-
-PhotoPyramid::PhotoPyramid(Image8 srgb8) {
-  levels_.push_back(std::move(srgb8));
-  while (std::min(levels_.back().width, levels_.back().height) >= 8) {
-    levels_.push_back(Halve(levels_.back()));
+template <typename Code>
+std::vector<Raster<Code>> MakeLevels(Raster<Code> full) {
+  std::vector<Raster<Code>> levels;
+  levels.push_back(std::move(full));
+  while (std::min(levels.back().width, levels.back().height) >= 8) {
+    levels.push_back(Halve(levels.back()));
   }
+  return levels;
 }
 
-size_t PhotoPyramid::NumBytes() const {
-  size_t num_bytes = 0;
-  for (const Image8& level : levels_) num_bytes += level.values.size();
-  return num_bytes;
-}
-
-Eigen::Array3f PhotoPyramid::Bicubic(const Image8& level, double x, double y) const {
-  const std::array<float, 256>& radiance = RadianceTable();
+template <typename Code>
+Eigen::Array3f Bicubic(const Raster<Code>& level, double x, double y) {
+  const float* radiance = RadianceTable<Code>();
   const double fx = std::floor(x - 0.5);
   const double fy = std::floor(y - 0.5);
   const std::array<float, 4> wx = CubicWeights(static_cast<float>(x - 0.5 - fx));
@@ -91,10 +90,10 @@ Eigen::Array3f PhotoPyramid::Bicubic(const Image8& level, double x, double y) co
   for (int i = 0; i < 4; ++i) columns[i] = 3 * std::clamp(x0 + i, 0, level.width - 1);
   std::array<float, 3> sum = {0, 0, 0};
   for (int j = 0; j < 4; ++j) {
-    const uint8_t* row = level.At(0, std::clamp(y0 + j, 0, level.height - 1));
+    const Code* row = level.At(0, std::clamp(y0 + j, 0, level.height - 1));
     std::array<float, 3> in_row = {0, 0, 0};
     for (int i = 0; i < 4; ++i) {
-      const uint8_t* pixel = row + columns[i];
+      const Code* pixel = row + columns[i];
       for (int c = 0; c < 3; ++c) in_row[c] += wx[i] * radiance[pixel[c]];
     }
     for (int c = 0; c < 3; ++c) sum[c] += wy[j] * in_row[c];
@@ -102,8 +101,9 @@ Eigen::Array3f PhotoPyramid::Bicubic(const Image8& level, double x, double y) co
   return {std::max(sum[0], 0.0f), std::max(sum[1], 0.0f), std::max(sum[2], 0.0f)};
 }
 
-Eigen::Array3f PhotoPyramid::Bilinear(const Image8& level, double x, double y) const {
-  const std::array<float, 256>& radiance = RadianceTable();
+template <typename Code>
+Eigen::Array3f Bilinear(const Raster<Code>& level, double x, double y) {
+  const float* radiance = RadianceTable<Code>();
   const double fx = std::floor(x - 0.5);
   const double fy = std::floor(y - 0.5);
   const float tx = static_cast<float>(x - 0.5 - fx);
@@ -113,16 +113,18 @@ Eigen::Array3f PhotoPyramid::Bilinear(const Image8& level, double x, double y) c
   const int x1 = std::clamp(static_cast<int>(fx) + 1, 0, level.width - 1);
   const int y1 = std::clamp(static_cast<int>(fy) + 1, 0, level.height - 1);
   const auto at = [&](int px, int py) {
-    const uint8_t* pixel = level.At(px, py);
+    const Code* pixel = level.At(px, py);
     return Eigen::Array3f(radiance[pixel[0]], radiance[pixel[1]], radiance[pixel[2]]);
   };
   return (1 - ty) * ((1 - tx) * at(x0, y0) + tx * at(x1, y0)) +
          ty * ((1 - tx) * at(x0, y1) + tx * at(x1, y1));
 }
 
-Eigen::Array3f PhotoPyramid::Sample(const Eigen::Vector2d& image_px,
-                                    const Eigen::Matrix2d& px_from_texel,
-                                    int max_taps) const {
+template <typename Code>
+Eigen::Array3f SampleLevels(const std::vector<Raster<Code>>& levels,
+                            const Eigen::Vector2d& image_px,
+                            const Eigen::Matrix2d& px_from_texel,
+                            int max_taps) {
   double a = px_from_texel.col(0).norm();
   double b = px_from_texel.col(1).norm();
   // A level where both sides need at most max_taps taps; a long thin footprint keeps the level of
@@ -131,7 +133,7 @@ Eigen::Array3f PhotoPyramid::Sample(const Eigen::Vector2d& image_px,
   const double shortest = std::max(std::min(a, b), longest / 4);
   int level = 0;
   double scale = 1;
-  while (level + 1 < static_cast<int>(levels_.size()) && shortest * scale > max_taps) {
+  while (level + 1 < static_cast<int>(levels.size()) && shortest * scale > max_taps) {
     ++level;
     scale /= 2;
   }
@@ -139,7 +141,7 @@ Eigen::Array3f PhotoPyramid::Sample(const Eigen::Vector2d& image_px,
   b *= scale;
   const int num_a = std::clamp(static_cast<int>(std::ceil(a - 0.25)), 1, 4 * max_taps);
   const int num_b = std::clamp(static_cast<int>(std::ceil(b - 0.25)), 1, 4 * max_taps);
-  const Image8& pixels = levels_[level];
+  const Raster<Code>& pixels = levels[level];
   if (num_a * num_b == 1) return Bicubic(pixels, image_px.x() * scale, image_px.y() * scale);
   const bool few = num_a * num_b <= 4;
   Eigen::Array3f sum = Eigen::Array3f::Zero();
@@ -151,6 +153,36 @@ Eigen::Array3f PhotoPyramid::Sample(const Eigen::Vector2d& image_px,
     }
   }
   return sum / static_cast<float>(num_a * num_b);
+}
+
+}  // namespace
+
+uint8_t Srgb8FromRadiance(float radiance) {
+  const float clamped = std::clamp(radiance, 0.0f, 1.0f);
+  return EncodeTable()[static_cast<int>(clamped * kEncodeSteps + 0.5f)];
+}
+
+float RadianceFromSrgb8(uint8_t srgb8) { return RadianceTable<uint8_t>()[srgb8]; }
+
+uint16_t Srgb16FromRadiance(float radiance) {
+  return static_cast<uint16_t>(65535 * SrgbFromLinear(radiance) + 0.5f);
+}
+
+PhotoPyramid::PhotoPyramid(Image8 srgb8) : levels8_(MakeLevels(std::move(srgb8))) {}
+PhotoPyramid::PhotoPyramid(Image16 srgb16) : levels16_(MakeLevels(std::move(srgb16))) {}
+
+size_t PhotoPyramid::NumBytes() const {
+  size_t num_bytes = 0;
+  for (const Image8& level : levels8_) num_bytes += level.values.size();
+  for (const Image16& level : levels16_) num_bytes += 2 * level.values.size();
+  return num_bytes;
+}
+
+Eigen::Array3f PhotoPyramid::Sample(const Eigen::Vector2d& image_px,
+                                    const Eigen::Matrix2d& px_from_texel,
+                                    int max_taps) const {
+  return levels16_.empty() ? SampleLevels(levels8_, image_px, px_from_texel, max_taps)
+                           : SampleLevels(levels16_, image_px, px_from_texel, max_taps);
 }
 
 }  // namespace groundglass

@@ -10,10 +10,11 @@
 
 namespace groundglass {
 
-// A photograph and its halvings, kept as 8-bit sRGB, filtered in linear light.
+// A photograph and its halvings, kept as sRGB of 8 or 16 bits, filtered in linear light.
 class PhotoPyramid {
  public:
   explicit PhotoPyramid(Image8 srgb8);
+  explicit PhotoPyramid(Image16 srgb16);
 
   // The mean radiance of the parallelogram centred at image_px and spanned by the columns of
   // px_from_texel: one texel's footprint. Taps are bicubic (Catmull-Rom; Keys 1981, a = -1/2), no
@@ -22,18 +23,20 @@ class PhotoPyramid {
                         const Eigen::Matrix2d& px_from_texel,
                         int max_taps = 4) const;
 
-  const Image8& Full() const { return levels_.front(); }
+  int bits() const { return levels16_.empty() ? 8 : 16; }
+  const Image8& Full() const { return levels8_.front(); }      // if bits() is 8
+  const Image16& Full16() const { return levels16_.front(); }  // if bits() is 16
   size_t NumBytes() const;
 
  private:
-  Eigen::Array3f Bicubic(const Image8& level, double x, double y) const;
-  Eigen::Array3f Bilinear(const Image8& level, double x, double y) const;
-
-  std::vector<Image8> levels_;
+  // One of them is empty.
+  std::vector<Image8> levels8_;
+  std::vector<Image16> levels16_;
 };
 
 // Radiance to 8-bit sRGB, rounded; values are clamped to [0, 1].
 uint8_t Srgb8FromRadiance(float radiance);
+uint16_t Srgb16FromRadiance(float radiance);
 // 8-bit sRGB to radiance.
 float RadianceFromSrgb8(uint8_t srgb8);
 

@@ -78,7 +78,10 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
     }
   }
   Image8 ignored;
-  if (options.detect_mount) ignored = FindMount(Pixels()->Full());
+  if (options.detect_mount) {
+    const auto pixels = Pixels();
+    ignored = pixels->bits() == 16 ? FindMount(pixels->Full16()) : FindMount(pixels->Full());
+  }
   if (photograph.mask_file) {
     const Image16 mask = ReadLabels(*photograph.mask_file);
     CheckSize(*photograph.mask_file, mask.width, mask.height, camera_);

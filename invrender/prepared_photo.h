@@ -63,8 +63,10 @@ class PreparedPhoto {
   double Quality(const Sighting& sighting) const;
 
   std::shared_ptr<const PhotoPyramid> Pixels() const { return cache_.Get(index_); }
-  // What they take when decoded: a third more than three bytes a pixel.
-  double NumPixelBytes() const { return 4.0 * camera_.width_px * camera_.height_px; }
+  // What they take when decoded: a third more than three codes a pixel.
+  double NumPixelBytes() const {
+    return 0.5 * cache_.bits() * camera_.width_px * camera_.height_px;
+  }
   size_t NumMaskBytes() const { return sight_map_.NumBytes(); }
 
   // Squared distance from the image's centre, 1 at the corners: vignetting's argument.

@@ -197,14 +197,18 @@ Raster<Code> ReadCodes(OpenImage& image, OIIO::TypeDesc type) {
   return codes;
 }
 
+// Of an image whose values are linear light.
+ImageF ReadOpenRadiance(OpenImage& image) {
+  return ColourOf(image, image.Read<float>(OIIO::TypeFloat), [](float value) { return value; });
+}
+
 uint8_t CodeFromLinear(float linear) {
   return static_cast<uint8_t>(SrgbFromLinear(linear) * 255.0f + 0.5f);
 }
 
 Image8 ReadOpenSrgb8(OpenImage& image) {
   if (image.IsLinear()) {
-    const ImageF radiance =
-        ColourOf(image, image.Read<float>(OIIO::TypeFloat), [](float value) { return value; });
+    const ImageF radiance = ReadOpenRadiance(image);
     Image8 srgb8(radiance.width, radiance.height, 3);
     std::transform(
         radiance.values.begin(), radiance.values.end(), srgb8.values.begin(), CodeFromLinear);
@@ -227,7 +231,7 @@ ImageF ReadRadiance(const std::filesystem::path& file) {
   OpenImage image(file);
   CheckJpegIsWhole(file);
   if (image.IsLinear()) {
-    return ColourOf(image, image.Read<float>(OIIO::TypeFloat), [](float value) { return value; });
+    return ReadOpenRadiance(image);
   }
   if (image.spec().format == OIIO::TypeUInt8) {
     std::array<float, 256> linear_of_code;
@@ -255,6 +259,19 @@ Image8 ReadSrgb8(const std::filesystem::path& file) {
   OpenImage image(file);
   CheckJpegIsWhole(file);
   return ReadOpenSrgb8(image);
+}
+
+Image16 ReadSrgb16(const std::filesystem::path& file) {
+  OpenImage image(file);
+  CheckJpegIsWhole(file);
+  if (!image.IsLinear()) return ReadCodes<uint16_t>(image, OIIO::TypeUInt16);
+  const ImageF radiance = ReadOpenRadiance(image);
+  Image16 srgb16(radiance.width, radiance.height, 3);
+  std::transform(
+      radiance.values.begin(), radiance.values.end(), srgb16.values.begin(), [](float linear) {
+        return static_cast<uint16_t>(SrgbFromLinear(linear) * 65535.0f + 0.5f);
+      });
+  return srgb16;
 }
 
 Image8 ReadGrey8(const std::filesystem::path& file) {

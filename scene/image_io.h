@@ -25,6 +25,8 @@ ImageSize ReadImageSize(const std::filesystem::path& file);
 ImageF ReadRadiance(const std::filesystem::path& file);
 // 8-bit sRGB, 3 channels.
 Image8 ReadSrgb8(const std::filesystem::path& file);
+// 16-bit sRGB, 3 channels; 8-bit files are widened.
+Image16 ReadSrgb16(const std::filesystem::path& file);
 // 8-bit sRGB grey (Rec. 709 luma of the encoded values), 1 channel: what edges are sought in.
 Image8 ReadGrey8(const std::filesystem::path& file);
 // Codes kept exactly, 1 channel (the first): face masks, occluder masks.
@@ -44,6 +46,8 @@ void WriteRadiance(const std::filesystem::path& file,
 void WriteSrgb8(const std::filesystem::path& file,
                 const Image8& srgb8,
                 const ImageWriteOptions& options = {});
+// 3 channels of 16 bits: PNG, TIFF or EXR.
+void WriteSrgb16(const std::filesystem::path& file, const Image16& srgb16);
 void WriteLabels(const std::filesystem::path& file, const Image16& labels);
 
 // Encoded JPEG or PNG bytes, for containers such as GLB.

@@ -103,6 +103,23 @@ void WriteSrgb8(const std::filesystem::path& file,
   });
 }
 
+void WriteSrgb16(const std::filesystem::path& file, const Image16& srgb16) {
+  CheckSize(file, srgb16.width, srgb16.height);
+  const OIIO::ImageSpec spec(srgb16.width, srgb16.height, srgb16.channels, IntegerType(file, 16));
+  if (IsExr(file)) {
+    ImageF radiance(srgb16.width, srgb16.height, srgb16.channels);
+    std::transform(
+        srgb16.values.begin(), srgb16.values.end(), radiance.values.begin(), [](uint16_t code) {
+          return LinearFromSrgb(static_cast<float>(code) / 65535.0f);
+        });
+    WriteRadiance(file, radiance);
+    return;
+  }
+  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
+    WritePixels(file, temporary, spec, OIIO::TypeUInt16, srgb16.values.data(), {});
+  });
+}
+
 void WriteLabels(const std::filesystem::path& file, const Image16& labels) {
   CheckSize(file, labels.width, labels.height);
   const OIIO::ImageSpec spec(labels.width, labels.height, labels.channels, OIIO::TypeUInt16);

@@ -16,9 +16,10 @@ constexpr uint16_t kProvenanceFilled = 65535;
 
 // One texture page. Row 0 is the top of the picture.
 struct TexturePage {
-  Image8 srgb8;        // 3 channels
-  Image16 provenance;  // 1 channel: the photograph each texel came from, from 1 in name order; may
-                       // be empty
+  Image8 srgb8;         // 3 channels
+  Image16 provenance;   // 1 channel: the photograph each texel came from, from 1 in name order; may
+                        // be empty
+  Image16 srgb16 = {};  // as srgb8 with 16 bits; may be empty
 };
 
 // Where one face lies on a page: texel coordinates (top-left origin, first texel's centre at

@@ -77,7 +77,12 @@ void WriteTexturedObj(const std::filesystem::path& file,
   std::string materials = "# Groundglass: one material for each texture page.\n";
   for (size_t i = 0; i < model.pages.size(); ++i) {
     const std::string picture = stem + "_" + std::to_string(i) + image_extension;
-    WriteSrgb8(file.parent_path() / picture, model.pages[i].srgb8, image_options);
+    const bool has_16_bits = !model.pages[i].srgb16.Empty() && image_extension != ".jpg";
+    if (has_16_bits) {
+      WriteSrgb16(file.parent_path() / picture, model.pages[i].srgb16);
+    } else {
+      WriteSrgb8(file.parent_path() / picture, model.pages[i].srgb8, image_options);
+    }
     materials += "\nnewmtl page_" + std::to_string(i) + "\nKa 1 1 1\nKd 1 1 1\nillum 0\nmap_Kd " +
                  picture + "\n";
   }

@@ -2,6 +2,9 @@
 // Part of Groundglass.
 #include "invrender/bake_output.h"
 
+#include "scene/image_io.h"
+#include "scene/srgb.h"
+#include "scene/textured_model_io.h"
 #include "scene/view_io.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
@@ -10,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstring>
+#include <set>
 
 namespace groundglass {
 namespace {
@@ -58,6 +62,43 @@ TEST(WriteBake, AWallOfTwentyFeetMeasuresSixMetresInTheGlbAndTwentyFeetInTheObj)
   for (const char* name : {"model_0.png", "provenance_0.png", "coverage.json", "faces/s1.png"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
   }
+}
+
+TEST(WriteBake, SixteenBitsInAreSixteenBitsOut) {
+  const TemporaryFolder folder;
+  PolygonModel model;
+  const int wall = AddWall(model, 0, 20, 0, 12);
+  // So faint a ramp that 8 bits have six codes for it.
+  const Paint ramp = [](int, const Eigen::Vector3d& point) -> Eigen::Array3f {
+    return Eigen::Array3f::Constant(0.2f + 0.001f * static_cast<float>(point.x()));
+  };
+  const std::vector<BakePhotograph> photographs = {PhotographPainted(
+      model, LookAt({10, -24, 5}, {10, 0, 6}, 320, 240, 280), ramp, folder.path(), "s1")};
+  BakeOptions options;
+  options.fill_gaps = true;
+  options.match_colour = false;
+  options.bits = 16;
+  WriteBake(BakeTextures(model, photographs, options), folder / "out", ".tif");
+  // Read back as another program would: places from the OBJ, codes from the picture.
+  const Image16 page = ReadSrgb16(folder / "out" / "model_0.tif");
+  TexturedModel textured = ReadTexturedModel(folder / "out" / "model.obj");
+  textured.pages[0].provenance = Image16(page.width, page.height, 1, 1);
+  long num_texels = 0;
+  std::set<uint16_t> codes;
+  for (const PlacedTexel& texel : TexelsOf(textured, wall)) {
+    if (texel.texels_from_border < 3) continue;
+    ++num_texels;
+    const Eigen::Vector2d& corner = textured.faces[wall].corners_texel[0];
+    const Eigen::Vector3d from_corner = texel.point_in_world - model.points_in_world[0];
+    const double x = from_corner.dot(texel.right_in_world) / texel.right_in_world.squaredNorm();
+    const double y = from_corner.dot(texel.down_in_world) / texel.down_in_world.squaredNorm();
+    const uint16_t code =
+        page.At(static_cast<int>(corner.x() + x), static_cast<int>(corner.y() + y))[1];
+    codes.insert(code);
+    ASSERT_NEAR(LinearFromSrgb(code / 65535.0f), 0.2 + 0.001 * texel.point_in_world.x(), 2e-5);
+  }
+  EXPECT_GT(num_texels, 10000);
+  EXPECT_GT(codes.size(), 200u);
 }
 
 }  // namespace
