@@ -64,6 +64,8 @@ int EvaluateFound(const EvaluateArguments& arguments) {
   options.render = [](const TexturedModel& textured, const Camera& camera) {
     RenderOptions render_options;
     render_options.supersampling = 2;
+    // A silhouette's pixels then have the building's colour alone, as the oracle's do.
+    render_options.background = Background::kTransparent;
     return Render(textured, camera, render_options);
   };
   const Evaluation evaluation = Evaluate(arguments.found, truth, model, options);

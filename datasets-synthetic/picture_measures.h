@@ -20,7 +20,8 @@ struct PictureErrors {
   std::array<double, 3> gain = {1, 1, 1};
 };
 
-// Both pictures are sRGB with 3 channels; `labels` is not 0 where the true picture shows the model;
+// Both pictures are sRGB; what the rendered one has beyond three channels (alpha, not
+// premultiplied) does not count. `labels` is not 0 where the true picture shows the model;
 // `covered` (1 channel) is not 0 where the rendered one has texture, and empty if it has
 // everywhere. Uncovered pixels count as black; outside the model both pictures are taken as equal.
 // Throws Error if sizes differ or no pixel shows the model.

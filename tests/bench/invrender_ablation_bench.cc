@@ -56,6 +56,7 @@ int Run(const std::string& folder) {
       const Camera camera = CameraFromTag(view.tag, true_srgb8.width, true_srgb8.height);
       RenderOptions render_options;
       render_options.supersampling = 2;
+      render_options.background = Background::kTransparent;
       const PictureErrors errors = ComparePictures(true_srgb8,
                                                    Render(bake.model, camera, render_options),
                                                    ReadLabels(view.faces_file),

@@ -37,6 +37,18 @@ TEST(ComparePictures, ThePictureItselfIsPerfect) {
   EXPECT_EQ(errors.num_pixels, 48 * 32);
 }
 
+TEST(ComparePictures, AlphaDoesNotCount) {
+  const Image8 picture = MakeTexture(1);
+  Image8 with_alpha(64, 48, 4);
+  for (size_t i = 0; i < with_alpha.values.size(); ++i) {
+    const bool is_alpha = i % 4 == 3;
+    with_alpha.values[i] = is_alpha ? static_cast<uint8_t>(i) : picture.values[i / 4 * 3 + i % 4];
+  }
+  const PictureErrors errors = ComparePictures(picture, with_alpha, MakeLabels(), {});
+  EXPECT_GE(errors.psnr_db, 99);
+  EXPECT_NEAR(errors.ssim, 1, 1e-6);
+}
+
 TEST(ComparePictures, AGainOfEachChannelIsFittedAway) {
   const Image8 half = MakeTexture(1);
   Image8 picture = half;
