@@ -34,9 +34,13 @@ class EdgeEvidence {
 
   // The gradient at one scale: level 0 is the photograph's own resolution, each further level has
   // half of it. Values are in units of that level's noise.
+  // Optics blur light, not its sRGB code, in which a blurred edge's steepest place lies up to a
+  // third of a pixel towards its dark side: edges are found by the code's gradient, where dark
+  // and bright ones count alike, and placed by the light's.
   struct Level {
-    double scale = 1;  // photograph's pixels per level's pixel
-    ImageF gradient;   // 2 channels: x, y
+    double scale = 1;       // photograph's pixels per level's pixel
+    ImageF gradient;        // 2 channels: x, y
+    ImageF light_gradient;  // the same of linear light, in no particular unit
   };
   const Level& AtScale(double px_per_cell) const;
 

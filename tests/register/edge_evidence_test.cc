@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "register/edge_evidence.h"
 
+#include "scene/srgb.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +11,8 @@
 namespace groundglass {
 namespace {
 
-// A straight border between two greys at n . p = offset, exact to subpixels by area averaging.
+// A straight border between two greys at n . p = offset, exact to subpixels: each pixel shows the
+// mean of the light that falls on it.
 Image8 StepImage(const Eigen::Vector2d& normal, double offset_px) {
   Image8 image(120, 100, 1);
   for (int y = 0; y < image.height; ++y) {
@@ -19,13 +22,16 @@ Image8 StepImage(const Eigen::Vector2d& normal, double offset_px) {
         const Eigen::Vector2d at(x + (i % 8 + 0.5) / 8, y + (i / 8 + 0.5) / 8);
         bright += normal.dot(at) > offset_px;
       }
-      *image.At(x, y) = static_cast<uint8_t>(60 + 120 * bright / 64 + 0.5);
+      const double light =
+          std::lerp(LinearFromSrgb(60 / 255.0f), LinearFromSrgb(180 / 255.0f), bright / 64);
+      *image.At(x, y) =
+          static_cast<uint8_t>(255 * SrgbFromLinear(static_cast<float>(light)) + 0.5f);
     }
   }
   return image;
 }
 
-TEST(EdgeEvidence, FindsAStepToATenthOfAPixel) {
+TEST(EdgeEvidence, FindsAStepToATwentiethOfAPixel) {
   for (const double turn_deg : {0.0, 20.0, 45.0, 77.0, 90.0, 140.0}) {
     const double turn = turn_deg / 57.29577951308232;
     const Eigen::Vector2d normal(std::cos(turn), std::sin(turn));
@@ -34,8 +40,28 @@ TEST(EdgeEvidence, FindsAStepToATenthOfAPixel) {
     const EdgeEvidence evidence(StepImage(normal, normal.dot(sample) + truth_px), {});
     const auto candidates = evidence.FindCandidates(sample, normal, 6, 8, 25);
     ASSERT_EQ(candidates.size(), 1u) << turn_deg;
-    EXPECT_NEAR(candidates[0].offset_px, truth_px, 0.1) << turn_deg;
+    EXPECT_NEAR(candidates[0].offset_px, truth_px, 0.05) << turn_deg;
     EXPECT_GT(candidates[0].strength, 0) << "brighter along the normal";
+  }
+}
+
+// A border blurred by optics, which blur light: in the photograph's codes its steepest place lies
+// 0.2 px towards the dark side, here 0.3 px.
+TEST(EdgeEvidence, ABlurredStepLiesWhereTheLightChangesMost) {
+  constexpr double kBlur = 1.2;  // px
+  Image8 image(120, 100, 1);
+  for (int x = 0; x < image.width; ++x) {
+    const double bright = 0.5 * std::erfc((60.25 - (x + 0.5)) / (kBlur * std::sqrt(2.0)));
+    const auto light = static_cast<float>(std::lerp(0.02, 0.7, bright));
+    for (int y = 0; y < image.height; ++y) {
+      *image.At(x, y) = static_cast<uint8_t>(255 * SrgbFromLinear(light) + 0.5f);
+    }
+  }
+  const EdgeEvidence evidence(image, {});
+  for (const double side : {1.0, -1.0}) {
+    const auto candidates = evidence.FindCandidates({60, 50}, {side, 0}, 6, 8, 25);
+    ASSERT_EQ(candidates.size(), 1u);
+    EXPECT_NEAR(side * candidates[0].offset_px, 0.25, 0.03);
   }
 }
 

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "tests/register/house.h"
 
+#include "scene/srgb.h"
 #include "scene/visibility.h"
 
 #include <algorithm>
@@ -59,14 +60,16 @@ Image8 PhotographModel(const PolygonModel& model,
   Image8 photograph(camera.width_px, camera.height_px, 1);
   for (int y = 0; y < camera.height_px; ++y) {
     for (int x = 0; x < camera.width_px; ++x) {
-      double sum = 0;
+      float light = 0;
       for (int ray = 0; ray < kRays * kRays; ++ray) {
         const Eigen::Vector2d at(x + (ray % kRays + 0.5) / kRays, y + (ray / kRays + 0.5) / kRays);
         const auto hit = visibility.FirstHit(position, UnprojectToWorld(camera, at));
-        sum += hit ? 40 + 29 * (hit->face * 5 % 6) : 225;
+        const int code = hit ? 40 + 29 * (hit->face * 5 % 6) : 225;
+        light += LinearFromSrgb(static_cast<float>(code) / 255);
       }
+      const double code = 255 * SrgbFromLinear(light / (kRays * kRays));
       *photograph.At(x, y) =
-          static_cast<uint8_t>(std::clamp(sum / (kRays * kRays) + noise(random) + 0.5, 0.0, 255.0));
+          static_cast<uint8_t>(std::clamp(code + noise(random) + 0.5, 0.0, 255.0));
     }
   }
   return photograph;
