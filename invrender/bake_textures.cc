@@ -260,13 +260,17 @@ BakeResult BakeTextures(const PolygonModel& model,
                                                           steps);
   ChooseTexelSizes(model, photos, options, charts);
   if (is_limited) {
-    const MemoryPlan plan = PlanMemory(
-        charts, photos, static_cast<size_t>(options.max_memory_mb) * 1000000, options.bits);
+    const MemoryPlan plan = PlanMemory(charts,
+                                       photos,
+                                       static_cast<size_t>(options.max_memory_mb) * 1000000,
+                                       options.bits,
+                                       options.texel_size == 0);
     result.texel_scale = plan.texel_scale;
     for (Chart& chart : charts) {
       if (chart.texel_size > 0) chart.SetTexelSize(chart.texel_size * plan.texel_scale);
     }
     cache.SetMaxBytes(plan.photo_bytes);
+    if (plan.num_dropped > 0) cache.DropLevels(plan.num_dropped);
   }
   const std::vector<PageSize> page_sizes =
       PackCharts(charts, options.gutter_texels, options.max_page_texels);

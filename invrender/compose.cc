@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 
 namespace groundglass {
 namespace {
@@ -71,20 +72,68 @@ class Mixer {
     for (const int photo : cells.photos) views_.push_back(photos[photo].View(chart, chart_index));
   }
 
-  // Where all cells around a texel chose the same photograph, and it shows the texel clear of
-  // borders: the photograph's k, else -1.
-  int GatherFast(int x, int y, Sighting& sighting) const {
+  // The photograph (its k) that all cells around a texel chose; -1 if they differ.
+  int ChosenByAll(int x, int y) const {
     const CellBlend blend(x, y, cells_, options_.smooth_seams);
     const int k = choice_.best[blend.cells[0]];
-    if (k < 0) return -1;
     for (int corner = 1; corner < 4; ++corner) {
       if (choice_.best[blend.cells[corner]] != k) return -1;
     }
+    return k;
+  }
+
+  // Whether a photograph shows the texel clear of borders.
+  bool SeesClear(int k, int x, int y, Sighting& sighting) const {
     const auto seen = photos_[cells_.photos[k]].Sight(
         views_[k], chart_.texel_size * texels_.PointAt(x, y), texels_.FaceAt(x, y));
-    if (!seen || seen->border_px < options_.border_margin_px + 1.5) return -1;
+    if (!seen || seen->border_px < options_.border_margin_px + 1.5) return false;
     sighting = *seen;
-    return k;
+    return true;
+  }
+
+  // ChosenByAll for the texels of a row that have a face; -1 for the others.
+  void ChooseRow(int y, std::vector<int>& chosen) const {
+    chosen.assign(texels_.width(), -1);
+    for (int x = 0; x < texels_.width(); ++x) {
+      if (texels_.FaceAt(x, y) >= 0) chosen[x] = ChosenByAll(x, y);
+    }
+  }
+
+  // Texels of a row that one photograph shows so far from any border that only the first and the
+  // last need to be sought in its mask: what lies between is nearer to one of them than they are
+  // to a border. Returns how many; 0 if the row has to be gone through texel by texel. Sightings
+  // are those of the texels' centres.
+  static constexpr int kRunTexels = 8;
+  int GatherRun(int x,
+                int y,
+                const std::vector<int>& chosen,
+                std::array<Sighting, kRunTexels>& run) const {
+    const int last = x + kRunTexels - 1;
+    if (last >= texels_.width()) return 0;
+    const int k = chosen[x];
+    // Masks painted by hand may part faces of one plane without a border.
+    if (k < 0 || photos_[cells_.photos[k]].IsHandPainted()) return 0;
+    for (int i = x; i <= last; ++i) {
+      if (!texels_.IsCentreInside(i, y) || texels_.FaceAt(i, y) != texels_.FaceAt(x, y) ||
+          chosen[i] != k) {
+        return 0;
+      }
+    }
+    Sighting& first = run.front();
+    if (!SeesClear(k, x, y, first) || !SeesClear(k, last, y, run.back())) return 0;
+    const double half_length = (run.back().image_px - first.image_px).norm() / 2;
+    if (std::min(first.border_px, run.back().border_px) <
+        options_.border_margin_px + 1.5 + half_length) {
+      return 0;
+    }
+    for (int i = 1; i < kRunTexels - 1; ++i) {
+      const double t = static_cast<double>(i) / (kRunTexels - 1);
+      run[i] = first;  // no borders near, whose distances would matter
+      run[i].px_from_unit = (1 - t) * first.px_from_unit + t * run.back().px_from_unit;
+      run[i].image_px = photos_[cells_.photos[k]].Locate(
+          views_[k], chart_.texel_size * Eigen::Vector2d(x + i + 0.5, y + 0.5));
+    }
+    return kRunTexels;
   }
 
   // The photographs of one texel with weights that sum to 1; empty if none shows it.
@@ -216,6 +265,17 @@ struct Lookup {
   Eigen::Matrix2f px_from_unit;
 };
 
+// In the order that they have for each photograph.
+void SortByPhoto(size_t num_photos, std::vector<Lookup>& lookups) {
+  std::vector<size_t> next(num_photos + 1, 0);
+  for (const Lookup& lookup : lookups) ++next[lookup.k + 1];
+  if (std::count(next.begin(), next.end(), lookups.size()) == 1) return;  // all of one
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Lookup> sorted(lookups.size());
+  for (const Lookup& lookup : lookups) sorted[next[lookup.k]++] = lookup;
+  lookups = std::move(sorted);
+}
+
 constexpr int kFootprintStep = 4;  // of every fourth texel each way the footprint is kept
 
 }  // namespace
@@ -255,41 +315,54 @@ ChartPixels ComposeChart(const Chart& chart,
     std::vector<std::vector<Lookup>> lookups(num_rows);  // by photograph
     tbb::parallel_for(0, num_rows, [&](int row) {
       std::vector<Ingredient> ingredients;
+      std::array<Sighting, Mixer::kRunTexels> run;
+      std::vector<int> chosen;
       const int y = y0 + row;
-      for (int x = 0; x < width; ++x) {
-        if (texels.FaceAt(x, y) < 0) continue;
-        ingredients.resize(1);
-        ingredients[0].k = mixer.GatherFast(x, y, ingredients[0].sighting);
-        ingredients[0].weight = 1;
-        if (ingredients[0].k < 0) mixer.Gather(x, y, ingredients);
-        TexelState state = TexelState::kOpen;
-        if (!ingredients.empty()) {
-          state = mixer.IsGood(ingredients) ? TexelState::kGood : TexelState::kWeak;
-          for (const Ingredient& i : ingredients) {
-            lookups[row].push_back({i.k,
-                                    x,
-                                    static_cast<float>(i.weight),
-                                    i.sighting.image_px.cast<float>(),
-                                    i.sighting.px_from_unit.cast<float>()});
-          }
-          const auto main = std::max_element(
-              ingredients.begin(), ingredients.end(), [](const Ingredient& a, const Ingredient& b) {
-                return a.weight < b.weight || (a.weight == b.weight && a.k > b.k);
-              });
-          if (state == TexelState::kWeak) {
-            *pixels.reach.At(x, y) = mixer.ReachFromBorder(main->sighting);
-          }
-          *pixels.provenance.At(x, y) = static_cast<uint16_t>(cells.photos[main->k] + 1);
-          if (x % kFootprintStep == 0 && y % kFootprintStep == 0) {
-            *footprints.At(x / kFootprintStep, y / kFootprintStep) = static_cast<float>(
-                1 / std::sqrt(std::abs(main->sighting.px_from_unit.determinant())));
-          }
+      mixer.ChooseRow(y, chosen);
+      const auto add = [&](int x) {
+        const Ingredient& main = *std::max_element(
+            ingredients.begin(), ingredients.end(), [](const Ingredient& a, const Ingredient& b) {
+              return a.weight < b.weight || (a.weight == b.weight && a.k > b.k);
+            });
+        for (const Ingredient& i : ingredients) {
+          lookups[row].push_back({i.k,
+                                  x,
+                                  static_cast<float>(i.weight),
+                                  i.sighting.image_px.cast<float>(),
+                                  i.sighting.px_from_unit.cast<float>()});
         }
-        *pixels.states.At(x, y) = static_cast<uint8_t>(state);
+        const bool is_good = mixer.IsGood(ingredients);
+        *pixels.states.At(x, y) =
+            static_cast<uint8_t>(is_good ? TexelState::kGood : TexelState::kWeak);
+        if (!is_good) *pixels.reach.At(x, y) = mixer.ReachFromBorder(main.sighting);
+        *pixels.provenance.At(x, y) = static_cast<uint16_t>(cells.photos[main.k] + 1);
+        if (x % kFootprintStep == 0 && y % kFootprintStep == 0) {
+          *footprints.At(x / kFootprintStep, y / kFootprintStep) =
+              static_cast<float>(1 / std::sqrt(std::abs(main.sighting.px_from_unit.determinant())));
+        }
+      };
+      for (int x = 0; x < width;) {
+        if (texels.FaceAt(x, y) < 0) {
+          ++x;
+          continue;
+        }
+        const int num_in_run = mixer.GatherRun(x, y, chosen, run);
+        ingredients.resize(1);
+        ingredients[0] = {chosen[x], 1, true, {}};
+        for (int i = 0; i < num_in_run; ++i, ++x) {
+          ingredients[0].sighting = run[i];
+          add(x);
+        }
+        if (num_in_run > 0) continue;
+        if (ingredients[0].k < 0 ||
+            !mixer.SeesClear(ingredients[0].k, x, y, ingredients[0].sighting)) {
+          mixer.Gather(x, y, ingredients);
+        }
+        *pixels.states.At(x, y) = static_cast<uint8_t>(TexelState::kOpen);
+        if (!ingredients.empty()) add(x);
+        ++x;
       }
-      std::stable_sort(lookups[row].begin(),
-                       lookups[row].end(),
-                       [](const Lookup& a, const Lookup& b) { return a.k < b.k; });
+      SortByPhoto(cells.photos.size(), lookups[row]);
     });
     std::vector<char> is_used(cells.photos.size(), 0);
     for (const std::vector<Lookup>& row : lookups) {

@@ -31,12 +31,20 @@ constexpr double kBandBytes = 80 * kMegabyte;
 // Texels this much longer are no texture any more.
 constexpr double kLargestScale = 8;
 
+// Photographs are kept at an eighth of their sides at least.
+constexpr int kMostDropped = 3;
+// What decoding takes, of what a photograph takes once it is decoded.
+constexpr double kDecodingShare = 1.75;
+// Texels this much longer are a fair price for dropping a level.
+constexpr double kWorthIt = 1.1;
+
 }  // namespace
 
 MemoryPlan PlanMemory(const std::vector<Chart>& charts,
                       const std::vector<PreparedPhoto>& photos,
                       size_t max_bytes,
-                      int bits) {
+                      int bits,
+                      bool may_drop) {
   const bool is_wide = bits == 16;
   constexpr double kCellsOfTexel = 1.0 / (kCellTexels * kCellTexels);
   double all_charts = 0;
@@ -62,22 +70,37 @@ MemoryPlan PlanMemory(const std::vector<Chart>& charts,
     all_photos += photo.NumPixelBytes();
   }
   const auto limit = static_cast<double>(max_bytes);
-  fixed += std::min(all_photos, std::max(kPhotoShare * limit, kFewPhotos * largest_photo));
   const double needed = all_charts + largest_chart;
-  const double left = limit - fixed;
   MemoryPlan plan;
-  if (needed > left) plan.texel_scale = left > 0 ? std::sqrt(needed / left) : 1e9;
+  plan.texel_scale = 1e9;
+  double least = 1e300;
+  for (int num_dropped = 0; num_dropped <= (may_drop ? kMostDropped : 0); ++num_dropped) {
+    const double shrink = std::pow(4.0, num_dropped);
+    const double kept = all_photos / shrink;
+    // Even a photograph of which only coarse levels are kept is decoded whole.
+    const double decoding = num_dropped > 0 ? kDecodingShare * largest_photo : 0;
+    const double taken =
+        fixed + decoding +
+        std::min(kept, std::max(kPhotoShare * limit, kFewPhotos * largest_photo / shrink));
+    const double left = limit - taken;
+    least = std::min(least, taken + needed / (kLargestScale * kLargestScale));
+    if (left <= 0) continue;
+    const double scale = std::max({1.0, std::sqrt(needed / left), std::pow(2.0, num_dropped)});
+    // A little is worth having all photographs at hand.
+    if (scale > kWorthIt * plan.texel_scale) continue;
+    plan.texel_scale = scale;
+    plan.num_dropped = num_dropped;
+    // One more is in memory while it takes another's place.
+    const double spare = left - needed / (scale * scale);
+    const double for_photos = std::min(kept, kPhotoShare * limit) + std::max(0.0, spare);
+    plan.photo_bytes = static_cast<size_t>(std::max(0.0, for_photos - largest_photo / shrink));
+  }
   if (plan.texel_scale > kLargestScale) {
-    const double least = fixed + needed / (kLargestScale * kLargestScale);
     throw Error("these photographs need at least " +
                 std::to_string(static_cast<long>(std::ceil(least / kMegabyte))) +
                 " MB of memory, the limit is " +
                 std::to_string(static_cast<long>(limit / kMegabyte)));
   }
-  // One more is in memory while it takes another's place.
-  const double spare = left - needed / (plan.texel_scale * plan.texel_scale);
-  const double for_photos = std::min(all_photos, kPhotoShare * limit) + std::max(0.0, spare);
-  plan.photo_bytes = static_cast<size_t>(std::max(0.0, for_photos - largest_photo));
   return plan;
 }
 

@@ -6,6 +6,8 @@
 
 #include <tbb/task_arena.h>
 
+#include <utility>
+
 namespace groundglass {
 
 PhotoCache::PhotoCache(std::vector<std::filesystem::path> files, size_t max_bytes, int bits)
@@ -29,8 +31,9 @@ std::shared_ptr<const PhotoPyramid> PhotoCache::Get(int photo) {
   std::shared_ptr<const PhotoPyramid> pyramid;
   // Isolated: this thread must not take up other work that waits for the same photograph.
   tbb::this_task_arena::isolate([&] {
-    pyramid = bits_ == 16 ? std::make_shared<const PhotoPyramid>(ReadSrgb16(entry.file))
-                          : std::make_shared<const PhotoPyramid>(ReadSrgb8(entry.file));
+    pyramid = bits_ == 16
+                  ? std::make_shared<const PhotoPyramid>(ReadSrgb16(entry.file), num_dropped_)
+                  : std::make_shared<const PhotoPyramid>(ReadSrgb8(entry.file), num_dropped_);
   });
   const std::lock_guard<std::mutex> lock(mutex_);
   ++num_decoded_;
@@ -55,6 +58,14 @@ void PhotoCache::SetMaxBytes(size_t max_bytes) {
   const std::lock_guard<std::mutex> lock(mutex_);
   max_bytes_ = max_bytes;
   DropOldest();
+}
+
+void PhotoCache::DropLevels(int num_dropped) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  num_dropped_ = num_dropped;
+  const size_t max_bytes = std::exchange(max_bytes_, 0);
+  DropOldest();
+  max_bytes_ = max_bytes;
 }
 
 size_t PhotoCache::num_bytes() const {

@@ -25,6 +25,8 @@ class PhotoCache {
   std::shared_ptr<const PhotoPyramid> Get(int photo);
 
   void SetMaxBytes(size_t max_bytes);
+  // From now on without the finest levels; what is in memory is forgotten.
+  void DropLevels(int num_dropped);
 
   int bits() const { return bits_; }
   size_t num_bytes() const;
@@ -43,6 +45,7 @@ class PhotoCache {
   mutable std::mutex mutex_;
   size_t max_bytes_;
   const int bits_;
+  int num_dropped_ = 0;
   size_t num_bytes_ = 0;
   long num_decoded_ = 0;
   std::vector<std::unique_ptr<Entry>> entries_;

@@ -13,8 +13,10 @@ namespace groundglass {
 // A photograph and its halvings, kept as sRGB of 8 or 16 bits, filtered in linear light.
 class PhotoPyramid {
  public:
-  explicit PhotoPyramid(Image8 srgb8);
-  explicit PhotoPyramid(Image16 srgb16);
+  // num_dropped: the finest levels that are not kept, where only coarser ones are needed; what is
+  // sampled is still given in the whole photograph's pixels.
+  explicit PhotoPyramid(Image8 srgb8, int num_dropped = 0);
+  explicit PhotoPyramid(Image16 srgb16, int num_dropped = 0);
 
   // The mean radiance of the parallelogram centred at image_px and spanned by the columns of
   // px_from_texel: one texel's footprint. Taps are bicubic (Catmull-Rom; Keys 1981, a = -1/2), no
@@ -24,6 +26,7 @@ class PhotoPyramid {
                         int max_taps = 4) const;
 
   int bits() const { return levels16_.empty() ? 8 : 16; }
+  // The finest level that is kept.
   const Image8& Full() const { return levels8_.front(); }      // if bits() is 8
   const Image16& Full16() const { return levels16_.front(); }  // if bits() is 16
   size_t NumBytes() const;
@@ -32,6 +35,7 @@ class PhotoPyramid {
   // One of them is empty.
   std::vector<Image8> levels8_;
   std::vector<Image16> levels16_;
+  int num_dropped_ = 0;
 };
 
 // Radiance to 8-bit sRGB, rounded; values are clamped to [0, 1].

@@ -203,6 +203,19 @@ std::optional<Sighting> PreparedPhoto::Sight(const ChartInCamera& view,
   return sighting;
 }
 
+Eigen::Vector2d PreparedPhoto::Locate(const ChartInCamera& view,
+                                      const Eigen::Vector2d& plane_point) const {
+  const Eigen::Vector3d in_cam =
+      view.origin_in_cam + plane_point.x() * view.right_in_cam + plane_point.y() * view.down_in_cam;
+  const double inverse_depth = 1 / in_cam.z();
+  const double x = in_cam.x() * inverse_depth;
+  const double y = in_cam.y() * inverse_depth;
+  const double r2 = x * x + y * y;
+  const double s = 1 + r2 * (camera_.k1 + r2 * camera_.k2);
+  return {camera_.focal_x_px * s * x + camera_.center_x_px,
+          camera_.focal_y_px * s * y + camera_.center_y_px};
+}
+
 double PreparedPhoto::Quality(const Sighting& sighting) const {
   // Resolution: the worse direction counts more, since its blur is what the eye sees.
   const double sum = sighting.px_from_unit.squaredNorm();

@@ -59,6 +59,9 @@ class PreparedPhoto {
                                 const Eigen::Vector2d& plane_point,
                                 int face) const;
 
+  // Where a point of the chart's plane lies in the image, which must be before the camera.
+  Eigen::Vector2d Locate(const ChartInCamera& view, const Eigen::Vector2d& plane_point) const;
+
   // Larger is better: px for one model unit, lowered near borders; 0 is worthless.
   double Quality(const Sighting& sighting) const;
 
@@ -73,6 +76,7 @@ class PreparedPhoto {
   double RadiusSquared(const Eigen::Vector2d& image_px) const {
     return (image_px - half_size_px_).squaredNorm() / half_size_px_.squaredNorm();
   }
+  bool IsHandPainted() const { return is_hand_painted_; }
   bool MayTexture(int face) const { return allowed_.empty() || allowed_[face]; }
   // Whether some pixel's centre shows the face; slivers may be seen without.
   bool Shows(int face) const { return is_shown_[face] != 0; }

@@ -36,7 +36,7 @@ void ChooseTexelSizes(const PolygonModel& model,
   constexpr double kKept = 0.75;
   // A texel's side in pixels of that photograph: texels as large as pixels, looked up between
   // pixels and shown between texels, would lose a third of the detail on the way.
-  constexpr double kPixelShare = 0.75;
+  constexpr double kPixelShare = 0.85;
   const int room = options.max_page_texels - 2 * options.gutter_texels;
   tbb::parallel_for(size_t{0}, charts.size(), [&](size_t index) {
     Chart& chart = charts[index];

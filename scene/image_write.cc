@@ -32,7 +32,10 @@ void WritePixels(const std::filesystem::path& file,
     spec.attribute("Compression", "jpeg:" + std::to_string(options.jpeg_quality));
     spec.attribute("jpeg:subsampling", "4:4:4");
   } else if (extension == ".png") {
-    spec.attribute("png:compressionLevel", 6);
+    // Labels are the same over long runs: the fastest level already finds them.
+    const bool is_labels = spec.nchannels == 1 && spec.format == OIIO::TypeUInt16;
+    spec.attribute("png:compressionLevel", is_labels ? 1 : 6);
+    if (is_labels) spec.attribute("png:filter", 8);  // no filter
     spec.attribute("oiio:UnassociatedAlpha", 1);
   } else if (extension == ".tif" || extension == ".tiff") {
     spec.attribute("Compression", "zip");

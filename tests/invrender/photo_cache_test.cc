@@ -47,6 +47,31 @@ TEST(PhotoCache, EvenWithoutRoomEveryThreadGetsItsPhotograph) {
       0, 500, [&](int i) { ASSERT_EQ(*cache.Get(i % 5)->Full().At(0, 0), 10 * (i % 5 + 1)); });
 }
 
+TEST(PhotoCache, WithoutTheFinestLevelsPlacesStayWhereTheyAre) {
+  const TemporaryFolder folder;
+  Image8 ramp(64, 48, 3);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) std::fill_n(ramp.At(x, y), 3, static_cast<uint8_t>(60 + 2 * x));
+  }
+  WriteSrgb8(folder / "ramp.png", ramp);
+  PhotoCache cache({folder / "ramp.png"}, 1 << 20);
+  const Eigen::Matrix2d footprint = 4 * Eigen::Matrix2d::Identity();
+  const auto whole = cache.Get(0);
+  cache.DropLevels(2);
+  EXPECT_EQ(cache.num_bytes(), 0u);
+  const auto coarse = cache.Get(0);
+  EXPECT_LT(coarse->NumBytes(), whole->NumBytes() / 12);
+  for (const Eigen::Vector2d& at : {Eigen::Vector2d(20.3, 17), {31, 24.5}, {44.8, 30}}) {
+    const float expected = whole->Sample(at, footprint)[0];
+    EXPECT_NEAR(coarse->Sample(at, footprint)[0], expected, 0.01 * expected);
+  }
+  // At least one level is left of however small a picture.
+  cache.DropLevels(9);
+  EXPECT_GT(cache.Get(0)->NumBytes(), 0u);
+  EXPECT_NEAR(
+      cache.Get(0)->Sample({32, 24}, footprint)[0], whole->Sample({32, 24}, footprint)[0], 0.02);
+}
+
 TEST(PhotoCache, AMissingFileIsAnError) {
   PhotoCache cache({"nowhere/s1.jpg"}, 1 << 20);
   EXPECT_THAT(ThrownMessage([&] { cache.Get(0); }), testing::HasSubstr("s1.jpg"));
