@@ -30,27 +30,27 @@ double WidthFromEdge(const PolygonModel& model, int face, const ModelEdge& edge)
 
 }  // namespace
 
-std::vector<double> FindEdgeCoarseness(const PolygonModel& model,
-                                       const std::vector<ModelEdge>& edges) {
+std::vector<EdgeCoarseness> FindEdgeCoarseness(const PolygonModel& model,
+                                               const std::vector<ModelEdge>& edges) {
   const double units_per_metre = 1 / MetresPerUnit(model.unit);
   double lowest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& point : model.points_in_world) lowest = std::min(lowest, point.z());
   const double ground_tolerance = 0.01 * units_per_metre;
 
-  std::vector<double> coarseness;
+  std::vector<EdgeCoarseness> coarseness;
   coarseness.reserve(edges.size());
   for (const ModelEdge& edge : edges) {
-    double sigma = 0;
+    EdgeCoarseness of_edge;
     if (edge.kind == ModelEdge::Kind::kBoundary) {
       const double highest_end = std::max(edge.start_in_world.z(), edge.end_in_world.z());
-      if (highest_end < lowest + ground_tolerance) sigma = kGround_m * units_per_metre;
+      if (highest_end < lowest + ground_tolerance) of_edge = {kGround_m * units_per_metre, true};
     } else if (edge.kind == ModelEdge::Kind::kCrease && edge.angle_deg <= kSharpestRoundingDeg) {
       const double chord = std::min(WidthFromEdge(model, edge.first_face, edge),
                                     WidthFromEdge(model, edge.second_face, edge));
-      sigma = std::min(chord / 2 * std::tan(RadiansFromDegrees(edge.angle_deg) / 4),
-                       kMostRounding_m * units_per_metre);
+      of_edge.sigma = std::min(chord / 2 * std::tan(RadiansFromDegrees(edge.angle_deg) / 4),
+                               kMostRounding_m * units_per_metre);
     }
-    coarseness.push_back(sigma);
+    coarseness.push_back(of_edge);
   }
   return coarseness;
 }

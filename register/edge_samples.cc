@@ -2,8 +2,6 @@
 // Part of Groundglass.
 #include "register/edge_samples.h"
 
-#include "register/edge_coarseness.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -47,7 +45,7 @@ std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
                          span.edge,
                          along,
                          length_px / count,
-                         edge_model.coarseness[span.edge]});
+                         edge_model.coarseness[span.edge].sigma});
     }
   }
   return samples;

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "register/edge_coarseness.h"
 #include "register/parameter_projection.h"
 #include "scene/feature_edges.h"
 #include "scene/polygon_model.h"
@@ -20,7 +21,7 @@ struct EdgeModel {
   const PolygonModel& model;
   std::vector<ModelEdge> edges;
   // For each edge (FindEdgeCoarseness).
-  std::vector<double> coarseness;
+  std::vector<EdgeCoarseness> coarseness;
   Visibility visibility;
 };
 

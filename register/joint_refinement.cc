@@ -2,17 +2,20 @@
 // Part of Groundglass.
 #include "register/joint_refinement.h"
 
+#include "register/edge_families.h"
+#include "register/normal_equations.h"
+#include "register/own_error.h"
 #include "register/shared_bias.h"
 #include "register/shared_edge_cost.h"
 #include "register/standard_normal_cost.h"
 #include "register/weighted_median.h"
 
-#include <Eigen/Sparse>
 #include <ceres/ceres.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace groundglass {
 namespace {
@@ -22,6 +25,7 @@ struct MovingEdge {
   EdgeFrame frame;
   Eigen::Vector4d displacement = Eigen::Vector4d::Zero();  // in units of the frame's scale
   int num_photographs = 0;                                 // that matched it in the last round
+  std::vector<ceres::ResidualBlockId> prior_costs;
 };
 
 // A photograph as the solve moves it.
@@ -53,17 +57,27 @@ EdgeFrame FrameOfEdge(const PolygonModel& model,
   return frame;
 }
 
+// All edges on the ground as one: soil and plants hide the foot of every wall alike.
+EdgeFrame FrameOfGround(const PolygonModel& model, const JointOptions& options) {
+  EdgeFrame frame;
+  frame.across(2, 0) = options.ground_level_m / MetresPerUnit(model.unit);
+  frame.turn_ratio = 0;
+  return frame;
+}
+
 class JointSolver {
  public:
   JointSolver(const EdgeModel& edge_model,
               const std::vector<AlignedPhotograph>& photographs,
               const std::vector<int>& lenses,
               const JointOptions& options)
-      : photographs_(photographs),
+      : edge_model_(edge_model),
+        photographs_(photographs),
         options_(options),
         own_bias_(options.own),
         units_per_metre_(1 / MetresPerUnit(edge_model.model.unit)),
         edges_(edge_model.edges.size()) {
+    ground_.frame = FrameOfGround(edge_model.model, options);
     const LensParameters own_shares(
         options.own_view_angle_share, options.own_aspect_share, options.own_k1_share);
     for (size_t p = 0; p < photographs.size(); ++p) {
@@ -85,17 +99,26 @@ class JointSolver {
   void Match(double range_px) {
     runs_.clear();
     for (MovingEdge& edge : edges_) edge.num_photographs = 0;
+    own_size_sum_ = 0;
     for (size_t p = 0; p < photographs_.size(); ++p) MatchPhotograph(p, range_px);
+    if (!runs_.empty()) {
+      own_bias_.edge_offset_m = std::clamp(
+          own_bias_.edge_offset_m * std::sqrt(own_size_sum_ / static_cast<double>(runs_.size())),
+          options_.least_own_offset_m,
+          options_.most_own_offset_m);
+      own_bias_.edge_turn_m = own_bias_.edge_offset_m;
+    }
   }
 
   // Moves everything, candidates held. Leaves the problem for Covariances.
   void Solve() {
     problem_ = std::make_unique<ceres::Problem>();
     edge_costs_.clear();
+    for (MovingEdge& edge : edges_) edge.prior_costs.clear();
     for (const MatchedRun& run : runs_) {
       const AlignedPhotograph& photograph = photographs_[run.photograph];
       MovingPhotograph& moving = moving_[run.photograph];
-      MovingEdge& edge = edges_[run.edge];
+      MovingEdge& edge = MoverOf(run.edge);
       edge_costs_.push_back(problem_->AddResidualBlock(new SharedEdgeCost(run.samples,
                                                                           moving.prior,
                                                                           edge.frame,
@@ -110,26 +133,31 @@ class JointSolver {
     // Ceres orders the blocks of a group by their addresses: each group is one array, so that the
     // order, and with it the rounding, is the same in every run.
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    if (problem_->HasParameterBlock(ground_.displacement.data())) {
+      problem_->AddResidualBlock(new StandardNormalCost<4>, nullptr, ground_.displacement.data());
+      ordering->AddElementToGroup(ground_.displacement.data(), 1);
+    }
     for (MovingEdge& edge : edges_) {
       double* block = edge.displacement.data();
       if (!problem_->HasParameterBlock(block)) continue;
-      problem_->AddResidualBlock(new StandardNormalCost<4>, new ceres::CauchyLoss(1), block);
       // Tails end somewhere: no building is off by a room.
       const double widest = options_.widest_offset_m / options_.common_offset_m;
-      problem_->AddResidualBlock(
-          new StandardNormalCost<4>,
-          new ceres::ScaledLoss(nullptr, 1 / (widest * widest), ceres::TAKE_OWNERSHIP),
-          block);
+      edge.prior_costs = {
+          problem_->AddResidualBlock(new StandardNormalCost<4>, new ceres::CauchyLoss(1), block),
+          problem_->AddResidualBlock(
+              new StandardNormalCost<4>,
+              new ceres::ScaledLoss(nullptr, 1 / (widest * widest), ceres::TAKE_OWNERSHIP),
+              block)};
       ordering->AddElementToGroup(block, 0);
     }
     for (MovingPhotograph& moving : moving_) {
       problem_->AddResidualBlock(
           new StandardNormalCost<kNumCameraParameters>, nullptr, moving.own.data());
-      ordering->AddElementToGroup(moving.own.data(), 1);
+      ordering->AddElementToGroup(moving.own.data(), 2);
     }
     for (LensParameters& lens : lenses_) {
       problem_->AddResidualBlock(new StandardNormalCost<kNumLensParameters>, nullptr, lens.data());
-      ordering->AddElementToGroup(lens.data(), 2);
+      ordering->AddElementToGroup(lens.data(), 3);
     }
     ceres::Solver::Options solver;
     solver.linear_solver_ordering = ordering;
@@ -150,14 +178,24 @@ class JointSolver {
  private:
   void StartLenses();
   void MatchPhotograph(size_t p, double range_px);
+  // What moves an edge: its own displacement, or the ground's.
+  MovingEdge& MoverOf(int edge) {
+    return edge_model_.coarseness[edge].on_ground ? ground_ : edges_[edge];
+  }
+  std::vector<double*> Blocks();
+  Eigen::MatrixXd SharedPushes(const NormalEquations& equations) const;
+  Eigen::MatrixXd FamilyPushes(const NormalEquations& equations) const;
 
+  const EdgeModel& edge_model_;
   const std::vector<AlignedPhotograph>& photographs_;
   const JointOptions& options_;
   EdgeBias own_bias_;
+  double own_size_sum_ = 0;  // over the runs of the last matching, in units of own_bias_
   double units_per_metre_;
   std::vector<MovingPhotograph> moving_;
   std::vector<LensParameters> lenses_;
   std::vector<MovingEdge> edges_;  // for each of EdgeModel::edges
+  MovingEdge ground_;
   std::vector<MatchedRun> runs_;
   std::unique_ptr<ceres::Problem> problem_;
   std::vector<ceres::ResidualBlockId> edge_costs_;  // one for each run
@@ -186,29 +224,36 @@ void JointSolver::MatchPhotograph(size_t p, double range_px) {
                                        photograph.width_px,
                                        photograph.height_px);
   std::vector<WeightedValue> residuals;
+  std::vector<double> run_residuals_px;
   moving.num_matched = 0;
   const std::vector<CandidateSample>& found = photograph.found;
   for (size_t start = 0; start < found.size();) {
     MatchedRun run{p, found[start].sample.edge, {}};
-    MovingEdge& edge = edges_[run.edge];
+    const MovingEdge& mover = MoverOf(run.edge);
+    run_residuals_px.clear();
     size_t end = start;
     for (; end < found.size() && found[end].sample.edge == run.edge; ++end) {
       const CandidateSample& sample = found[end];
       const auto projected =
           projection.Project(sample.sample.point_in_world +
-                             edge.frame.Displacement(edge.displacement, sample.sample.along));
+                             mover.frame.Displacement(mover.displacement, sample.sample.along));
       if (!projected) continue;
       const double predicted_px = sample.normal.dot(projected->image_px - sample.origin_px);
       const SoftMatch match =
           MatchCandidates(sample, predicted_px, range_px, moving.noise_px, options_.matching);
       if (!(match.precision > 0)) continue;
       run.samples.push_back(MakeAlignedSample(sample, match, units_per_metre_, own_bias_));
+      run_residuals_px.push_back(match.offset_px - predicted_px);
       residuals.push_back({std::abs(match.offset_px - predicted_px), match.precision});
     }
     start = end;
     if (run.samples.empty()) continue;
+    const OwnError own =
+        EstimateOwnError(run.samples, run_residuals_px, options_.own_degrees_of_freedom);
+    for (AlignedSample& sample : run.samples) sample.bias_px *= own.widening;
+    own_size_sum_ += own.size;
     moving.num_matched += static_cast<int>(run.samples.size());
-    ++edge.num_photographs;
+    ++edges_[run.edge].num_photographs;
     runs_.push_back(std::move(run));
   }
   moving.noise_px = std::clamp(1.4826 * WeightedMedian(std::move(residuals), 1),
@@ -229,72 +274,86 @@ void JointSolver::EstimateSharedOffset() {
       std::clamp(*quartile, options_.least_shared_offset_m, options_.most_shared_offset_m);
 }
 
-JointRefinement JointSolver::Result() {
-  // Normal equations of everything at the solution, and the residuals' answer to what all edges
-  // may lie off together.
-  ceres::Problem::EvaluateOptions evaluate;
-  problem_->GetResidualBlocks(&evaluate.residual_blocks);
-  std::map<const double*, int> column_of_block;
-  int num_columns = 0;
-  const auto add_block = [&](double* block, int size) {
-    evaluate.parameter_blocks.push_back(block);
-    column_of_block[block] = num_columns;
-    num_columns += size;
-  };
-  for (MovingEdge& edge : edges_) {
+std::vector<double*> JointSolver::Blocks() {
+  std::vector<double*> blocks;
+  const auto add_edge = [&](MovingEdge& edge) {
     if (problem_->HasParameterBlock(edge.displacement.data())) {
-      add_block(edge.displacement.data(), 4);
+      blocks.push_back(edge.displacement.data());
     }
-  }
-  for (MovingPhotograph& moving : moving_) add_block(moving.own.data(), kNumCameraParameters);
-  for (LensParameters& lens : lenses_) add_block(lens.data(), kNumLensParameters);
-  ceres::CRSMatrix rows;
-  problem_->Evaluate(evaluate, nullptr, nullptr, nullptr, &rows);
-  const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> jacobian(
-      rows.num_rows,
-      rows.num_cols,
-      static_cast<Eigen::Index>(rows.values.size()),
-      rows.rows.data(),
-      rows.cols.data(),
-      rows.values.data());
-  const Eigen::SparseMatrix<double> information = jacobian.transpose() * jacobian;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(information);
+  };
+  for (MovingEdge& edge : edges_) add_edge(edge);
+  add_edge(ground_);
+  for (MovingPhotograph& moving : moving_) blocks.push_back(moving.own.data());
+  for (LensParameters& lens : lenses_) blocks.push_back(lens.data());
+  return blocks;
+}
 
-  Eigen::MatrixXd pushes = Eigen::MatrixXd::Zero(rows.num_rows, kNumSharedPushes);
-  std::map<ceres::ResidualBlockId, size_t> run_of_cost;
-  for (size_t i = 0; i < runs_.size(); ++i) run_of_cost[edge_costs_[i]] = i;
-  Eigen::Index row = 0;
-  for (const ceres::ResidualBlockId cost : evaluate.residual_blocks) {
-    const auto run = run_of_cost.find(cost);
-    const Eigen::Index size = problem_->GetCostFunctionForResidualBlock(cost)->num_residuals();
-    if (run != run_of_cost.end()) {
-      const MatchedRun& matched = runs_[run->second];
-      const AlignedPhotograph& photograph = photographs_[matched.photograph];
-      pushes.middleRows(row, size) =
-          WhitenedSharedPushes(matched.samples, photograph.width_px, photograph.height_px);
-    }
-    row += size;
+// What all edges may lie off together (WhitenedSharedPushes).
+Eigen::MatrixXd JointSolver::SharedPushes(const NormalEquations& equations) const {
+  Eigen::MatrixXd pushes = Eigen::MatrixXd::Zero(equations.Residuals().size(), kNumSharedPushes);
+  for (size_t i = 0; i < runs_.size(); ++i) {
+    const auto [first, size] = equations.RowsOfCosts().at(edge_costs_[i]);
+    const AlignedPhotograph& photograph = photographs_[runs_[i].photograph];
+    pushes.middleRows(first, size) =
+        WhitenedSharedPushes(runs_[i].samples, photograph.width_px, photograph.height_px);
   }
-  const Eigen::MatrixXd moved = solver.solve(Eigen::MatrixXd(jacobian.transpose() * pushes));
+  return pushes;
+}
+
+// What is left, one column for each family of edges in each photograph, and for each family's
+// displacements: where edges of a family err together, what is left of them does not average out
+// (cluster-robust covariance; Liang and Zeger, Biometrika 1986).
+Eigen::MatrixXd JointSolver::FamilyPushes(const NormalEquations& equations) const {
+  const std::vector<int> families = FindEdgeFamilies(edge_model_.model, edge_model_.edges);
+  constexpr int kAllPhotographs = -1;
+  std::map<std::pair<int, int>, Eigen::VectorXd> pushes;  // of photograph and family
+  const auto add = [&](int photograph, int edge, const NormalEquations::Rows& rows) {
+    auto& push = pushes
+                     .try_emplace({photograph, families[edge]},
+                                  Eigen::VectorXd::Zero(equations.Residuals().size()))
+                     .first->second;
+    push.segment(rows.first, rows.size) = equations.Residuals().segment(rows.first, rows.size);
+  };
+  for (size_t i = 0; i < runs_.size(); ++i) {
+    add(static_cast<int>(runs_[i].photograph),
+        runs_[i].edge,
+        equations.RowsOfCosts().at(edge_costs_[i]));
+  }
+  for (size_t edge = 0; edge < edges_.size(); ++edge) {
+    for (const ceres::ResidualBlockId cost : edges_[edge].prior_costs) {
+      add(kAllPhotographs, static_cast<int>(edge), equations.RowsOfCosts().at(cost));
+    }
+  }
+  Eigen::MatrixXd columns(equations.Residuals().size(), static_cast<Eigen::Index>(pushes.size()));
+  Eigen::Index column = 0;
+  for (const auto& [key, push] : pushes) columns.col(column++) = push;
+  return columns;
+}
+
+JointRefinement JointSolver::Result() {
+  const NormalEquations equations(*problem_, Blocks());
+  const Eigen::MatrixXd by_shared = equations.Answer(SharedPushes(equations));
+  const Eigen::MatrixXd by_family = equations.Answer(FamilyPushes(equations));
 
   JointRefinement joint;
   constexpr int kNumParts = kNumCameraParameters + kNumLensParameters;
   for (const MovingPhotograph& moving : moving_) {
-    const int own = column_of_block.at(moving.own.data());
-    const int lens = column_of_block.at(lenses_[moving.lens].data());
+    const Eigen::Index own = equations.ColumnOf(moving.own.data());
+    const Eigen::Index lens = equations.ColumnOf(lenses_[moving.lens].data());
     Eigen::Matrix<double, kNumParts, 1> parts;
     parts << moving.own, lenses_[moving.lens];
-    Eigen::MatrixXd units = Eigen::MatrixXd::Zero(num_columns, kNumParts);
-    units.middleRows<kNumCameraParameters>(own).leftCols<kNumCameraParameters>().setIdentity();
-    units.middleRows<kNumLensParameters>(lens).rightCols<kNumLensParameters>().setIdentity();
-    const Eigen::MatrixXd columns = solver.solve(units);
+    const auto rows_of_parts = [&](const Eigen::MatrixXd& columns) {
+      Eigen::MatrixXd rows(kNumParts, columns.cols());
+      rows << columns.middleRows<kNumCameraParameters>(own),
+          columns.middleRows<kNumLensParameters>(lens);
+      return rows;
+    };
     Eigen::Matrix<double, kNumParts, kNumParts> covariance;
-    covariance << columns.middleRows<kNumCameraParameters>(own),
-        columns.middleRows<kNumLensParameters>(lens);
-    Eigen::Matrix<double, kNumParts, kNumSharedPushes> shared;
-    shared << moved.middleRows<kNumCameraParameters>(own),
-        moved.middleRows<kNumLensParameters>(lens);
-    covariance += shared * shared.transpose();
+    covariance << rows_of_parts(equations.CovarianceColumns(own, kNumCameraParameters)),
+        rows_of_parts(equations.CovarianceColumns(lens, kNumLensParameters));
+    const Eigen::MatrixXd shared = rows_of_parts(by_shared);
+    const Eigen::MatrixXd family = rows_of_parts(by_family);
+    covariance += shared * shared.transpose() + family * family.transpose();
 
     const auto& whole = moving.prior.whole_from_parts;
     joint.photographs.push_back({whole * parts,
@@ -303,17 +362,15 @@ JointRefinement JointSolver::Result() {
                                  moving.num_matched});
   }
   for (size_t number = 0; number < edges_.size(); ++number) {
-    const MovingEdge& edge = edges_[number];
-    const auto column = column_of_block.find(edge.displacement.data());
-    if (column == column_of_block.end()) continue;
-    Eigen::MatrixXd units = Eigen::MatrixXd::Zero(num_columns, 2);
-    units.middleRows<2>(column->second).setIdentity();
-    const Eigen::Matrix2d covariance = solver.solve(units).middleRows<2>(column->second);
+    if (edges_[number].num_photographs == 0) continue;
+    const MovingEdge& mover = MoverOf(static_cast<int>(number));
+    const Eigen::Index column = equations.ColumnOf(mover.displacement.data());
+    const Eigen::Matrix2d covariance = equations.CovarianceColumns(column, 2).middleRows<2>(column);
     joint.displacements.push_back({static_cast<int>(number),
-                                   edge.frame.Displacement(edge.displacement, -1),
-                                   edge.frame.Displacement(edge.displacement, 1),
-                                   edge.frame.across * covariance * edge.frame.across.transpose(),
-                                   edge.num_photographs});
+                                   mover.frame.Displacement(mover.displacement, -1),
+                                   mover.frame.Displacement(mover.displacement, 1),
+                                   mover.frame.across * covariance * mover.frame.across.transpose(),
+                                   edges_[number].num_photographs});
   }
   return joint;
 }

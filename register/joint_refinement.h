@@ -28,9 +28,16 @@ struct JointOptions {
   double common_offset_m = 0.03;
   double common_turn_m = 0.03;
   double widest_offset_m = 0.3;  // one sigma of a normal distribution that ends the tails
-  // What is seen of an edge in one photograph only (light, blur, a joint on its sunny side).
-  // Its shared part is found: the upper quartile of the displacements, between these.
+  // How far the ground lies above or below the model's lowest level, everywhere alike, one sigma.
+  double ground_level_m = 0.1;
+  // What is seen of an edge in one photograph only (light, blur, a joint on its sunny side). Long
+  // tails here too: Student's t. The size of both parts is found in each scene, between the least
+  // and the most: that of the own part from what is left of each edge, that of the shared one as
+  // the upper quartile of the displacements.
   EdgeBias own = {0.012, 0.012, 0.03};
+  double own_degrees_of_freedom = 3;
+  double least_own_offset_m = 0.002;
+  double most_own_offset_m = 0.05;
   double least_shared_offset_m = 0.01;
   double most_shared_offset_m = 0.05;
   // The part of a prior's variance that is the photograph's own; the rest is its lens', and the
@@ -40,11 +47,11 @@ struct JointOptions {
   double own_aspect_share = 1;
   // How often candidates are chosen anew, and how far from an edge: it shrinks by this factor a
   // round, down to matching.final_range_px.
-  int num_rounds = 5;
+  int num_rounds = 6;
   double start_range_px = 6;
   double shrink = 0.6;
   double min_noise_px = 0.3;
-  MatchOptions matching;
+  MatchOptions matching = {.final_range_px = 1.2};
 };
 
 // How far a model edge was found from where the model has it.

@@ -25,15 +25,18 @@ PolygonModel TwoWalls(double turn_deg) {
 // Of the crease, and of the edges on the ground.
 std::pair<double, double> CoarsenessOfCreaseAndGround(const PolygonModel& model) {
   const std::vector<ModelEdge> edges = FindModelEdges(model);
-  const std::vector<double> coarseness = FindEdgeCoarseness(model, edges);
+  const std::vector<EdgeCoarseness> coarseness = FindEdgeCoarseness(model, edges);
   double crease = -1, ground = -1;
   for (size_t i = 0; i < edges.size(); ++i) {
     if (edges[i].kind == ModelEdge::Kind::kCrease) {
-      crease = coarseness[i];
+      crease = coarseness[i].sigma;
+      EXPECT_FALSE(coarseness[i].on_ground);
     } else if (edges[i].start_in_world.z() == 0 && edges[i].end_in_world.z() == 0) {
-      ground = coarseness[i];
+      ground = coarseness[i].sigma;
+      EXPECT_TRUE(coarseness[i].on_ground);
     } else {
-      EXPECT_EQ(coarseness[i], 0);
+      EXPECT_EQ(coarseness[i].sigma, 0);
+      EXPECT_FALSE(coarseness[i].on_ground);
     }
   }
   return {crease, ground};

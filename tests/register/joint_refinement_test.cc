@@ -114,6 +114,34 @@ TEST(RefineTogether, AnEdgeThatThePlanHasTooLowIsFoundAndDragsNoCamera) {
   }
 }
 
+// The house as it stands in its garden: a lawn 0.4 ft above the plan's ground hides the foot of
+// every wall.
+PolygonModel InALawn(PolygonModel model) {
+  const auto first = static_cast<int>(model.points_in_world.size());
+  for (const auto& [x, y] :
+       {std::pair(-60.0, -60.0), {100.0, -60.0}, {100.0, 80.0}, {-60.0, 80.0}}) {
+    model.points_in_world.push_back({x, y, 0.4});
+  }
+  model.faces.push_back({{first, first + 1, first + 2, first + 3}, "lawn"});
+  return model;
+}
+
+TEST(RefineTogether, ALawnThatHidesTheFootOfAllWallsDragsNoCamera) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  std::vector<PhotographAlignment> alignments = AlignAll(InALawn(model), edge_model);
+  const std::vector<EdgeDisplacement> displacements = RefineAccepted(edge_model, {}, alignments);
+  EXPECT_LT(MeanVertexErrorPx(model, alignments), 0.35);
+  int num_ground = 0;
+  for (const EdgeDisplacement& found : displacements) {
+    if (!edge_model.coarseness[found.edge].on_ground || found.num_photographs < 2) continue;
+    ++num_ground;
+    EXPECT_NEAR(found.start_in_world.z(), 0.4, 0.1);
+    EXPECT_EQ(found.start_in_world, found.end_in_world);
+  }
+  EXPECT_GE(num_ground, 2);
+}
+
 TEST(RefineTogether, WithAnExactModelCamerasStayAndTruthLiesInTheirEllipsoids) {
   const PolygonModel model = MakeHouse();
   const EdgeModel edge_model(model);

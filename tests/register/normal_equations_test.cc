@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/normal_equations.h"
+
+#include "scene/error.h"
+
+#include <gtest/gtest.h>
+
+namespace groundglass {
+namespace {
+
+// a x + b y - c, for two scalar blocks.
+class Line : public ceres::SizedCostFunction<1, 1, 1> {
+ public:
+  Line(double a, double b, double c) : a_(a), b_(b), c_(c) {}
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    residuals[0] = a_ * parameters[0][0] + b_ * parameters[1][0] - c_;
+    if (!jacobians) return true;
+    if (jacobians[0]) jacobians[0][0] = a_;
+    if (jacobians[1]) jacobians[1][0] = b_;
+    return true;
+  }
+
+ private:
+  double a_, b_, c_;
+};
+
+TEST(NormalEquations, KnowWhatMovesTheSolutionAndHowFar) {
+  double x = 0, y = 0;
+  ceres::Problem problem;
+  const auto first = problem.AddResidualBlock(new Line(2, 0, 4), nullptr, &x, &y);
+  const auto second = problem.AddResidualBlock(new Line(1, 1, 3), nullptr, &x, &y);
+  const NormalEquations equations(problem, {&y, &x});
+  EXPECT_EQ(equations.ColumnOf(&y), 0);
+  EXPECT_EQ(equations.ColumnOf(&x), 1);
+  EXPECT_EQ(equations.Residuals()[equations.RowsOfCosts().at(first).first], -4);
+  // x = c1 / 2 and y = c2 - x: a residual less by 1 is a c greater by 1.
+  Eigen::MatrixXd pushes = Eigen::MatrixXd::Zero(2, 2);
+  pushes(equations.RowsOfCosts().at(first).first, 0) = 1;
+  pushes(equations.RowsOfCosts().at(second).first, 1) = 1;
+  const Eigen::MatrixXd answer = equations.Answer(pushes);
+  EXPECT_NEAR(answer(0, 0), -0.5, 1e-12);
+  EXPECT_NEAR(answer(1, 0), 0.5, 1e-12);
+  EXPECT_NEAR(answer(0, 1), 1, 1e-12);
+  EXPECT_NEAR(answer(1, 1), 0, 1e-12);
+  const Eigen::MatrixXd covariance = equations.CovarianceColumns(0, 2);
+  EXPECT_NEAR(covariance(0, 0), 1.25, 1e-12);
+  EXPECT_NEAR(covariance(1, 1), 0.25, 1e-12);
+  EXPECT_NEAR(covariance(0, 1), -0.25, 1e-12);
+}
+
+TEST(NormalEquations, RefuseWhatIsNotDetermined) {
+  double x = 0, y = 0;
+  ceres::Problem problem;
+  problem.AddResidualBlock(new Line(2, 0, 4), nullptr, &x, &y);
+  EXPECT_THROW(NormalEquations(problem, {&x, &y}), Error);
+}
+
+}  // namespace
+}  // namespace groundglass
