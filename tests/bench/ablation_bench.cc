@@ -42,12 +42,15 @@ std::vector<Variant> MakeVariants() {
   exact_model.refine.bias.edge_offset_m = exact_model.refine.bias.edge_turn_m = 1e-6;
   exact_model.joint.common_offset_m = exact_model.joint.common_turn_m = 1e-4;
   exact_model.joint.own.edge_offset_m = exact_model.joint.own.edge_turn_m = 1e-6;
+  exact_model.joint.least_own_offset_m = exact_model.joint.most_own_offset_m = 1e-6;
   RegisterOptions& strongest = add("strongest candidate alone");
   strongest.refine.matching.max_candidates = strongest.joint.matching.max_candidates = 1;
   add("each photograph by itself").independent = true;
   RegisterOptions& anchored = add("edges held where the model has them");
   anchored.joint.common_offset_m = anchored.joint.common_turn_m = 1e-4;
   anchored.joint.own = anchored.refine.bias;
+  add("no ground level of its own").joint.ground_level_m = 1e-4;
+  add("own errors of edges without tails").joint.own_degrees_of_freedom = 1e6;
   return variants;
 }
 
@@ -134,7 +137,7 @@ std::vector<Outcome> RegisterFromNotebooks(const Scene& scene,
   trial_options.registration = options;
   std::vector<Outcome> outcomes;
   for (const Trial& trial : RunTrials(scene, truth, trial_options, {})) {
-    outcomes.push_back({trial.end_px, trial.verdict, trial.is_inside_95, trial.is_wrong_accepted});
+    outcomes.push_back({trial.end_px, trial.verdict, trial.IsInside95(), trial.is_wrong_accepted});
   }
   return outcomes;
 }
