@@ -28,6 +28,9 @@ constexpr double kEvenLightPreference = 2;
 constexpr float kAgreeing = 1;
 // Where less than this share of the votes agrees, there is no majority.
 constexpr float kMajority = 0.34f;
+// There, if three or more look, differing from the one in the middle says little, and the
+// photograph that shows the place best is a good guess.
+constexpr float kDisputedWeight = 0.25f;
 
 // The colours of one cell in the photographs that see it.
 struct CellColours {
@@ -145,13 +148,18 @@ void SettleDisputes(const ChartCells& cells,
         }
       }
     }
+    long num_views = 0;
+    for (const int cell : region) {
+      for (size_t k = 0; k < num_photos; ++k) num_views += dissent[cell * num_photos + k] >= 0;
+    }
+    const float weight = num_views >= 3 * static_cast<long>(region.size()) ? kDisputedWeight : 1.0f;
     for (size_t k = 0; k < num_photos; ++k) {
       float sum = 0;
       for (const int cell : region) {
         const float value = dissent[cell * num_photos + k];
         sum += value < 0 ? kLargestDissent : value;
       }
-      const float mean = sum / static_cast<float>(region.size());
+      const float mean = weight * sum / static_cast<float>(region.size());
       for (const int cell : region) {
         float& value = dissent[cell * num_photos + k];
         if (value >= 0) value = mean;

@@ -200,6 +200,37 @@ TEST(RejectOccluders, WindowOnWhichNoTwoPhotographsAgreeIsTakenWholeFromOne) {
   EXPECT_GT(most, 0.97 * static_cast<double>(num_texels));
 }
 
+// Of three that show three things, the one in the middle is no majority.
+TEST(RejectOccluders, WindowOnWhichNoTwoAgreeIsTakenFromWhoShowsItBest) {
+  const TemporaryFolder folder;
+  PolygonModel model;
+  const int wall = AddWall(model, 0, 24, 0, 12);
+  const auto is_window = [](const Eigen::Vector3d& point, double margin) {
+    return std::abs(point.x() - 12) < 2 - margin && std::abs(point.z() - 6) < 2 - margin;
+  };
+  const float glass[] = {0.15f, 0.10f, 0.24f};
+  const Camera cameras[] = {LookAt({-9, -30, 6}, {12, 0, 6}, 400, 260, 330),
+                            LookAt({12, -9, 6}, {12, 0, 6}, 640, 416, 288),
+                            LookAt({33, -30, 6}, {12, 0, 6}, 400, 260, 330)};
+  std::vector<BakePhotograph> photographs;
+  for (int i = 0; i < 3; ++i) {
+    const Paint paint = [&](int, const Eigen::Vector3d& point) -> Eigen::Array3f {
+      return is_window(point, 0) ? Eigen::Array3f::Constant(glass[i]) : Waves(point);
+    };
+    photographs.push_back(
+        PhotographPainted(model, cameras[i], paint, folder.path(), "s" + std::to_string(i + 1)));
+  }
+  long num_texels = 0;
+  long num_near = 0;
+  for (const PlacedTexel& texel : TexelsOf(BakeTextures(model, photographs).model, wall)) {
+    if (!is_window(texel.point_in_world, 0.5)) continue;
+    ++num_texels;
+    num_near += texel.source == 2 ? 1 : 0;
+  }
+  EXPECT_GT(num_texels, 500);
+  EXPECT_GT(num_near, 0.95 * num_texels);
+}
+
 TEST(Palette, KnownColoursDoNotSurprise) {
   Palette palette;
   EXPECT_EQ(palette.Surprise(Eigen::Array3f(-1, -1, -1)), 0);
