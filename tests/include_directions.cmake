@@ -36,7 +36,7 @@ set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI as
     nlohmann openssl tbb stb sys)
 set(owners_Eigen "\\.(h|cc)$")
 set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|datasets-synthetic)/.*\\.cc$")
-set(owners_OpenImageIO "^(scene/image_io|invrender/.*)\\.cc$")
+set(owners_OpenImageIO "^(scene/image_(io|write)|invrender/.*)\\.cc$")
 set(owners_embree3 "^scene/visibility\\.cc$")
 set(owners_ceres "^(calibrate|register|invrender)/.*\\.cc$")
 set(owners_apriltag "^calibrate/.*\\.cc$")
