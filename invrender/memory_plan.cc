@@ -77,6 +77,7 @@ MemoryPlan PlanMemory(const std::vector<Chart>& charts,
   for (int num_dropped = 0; num_dropped <= (may_drop ? kMostDropped : 0); ++num_dropped) {
     const double shrink = std::pow(4.0, num_dropped);
     const double kept = all_photos / shrink;
+    if (num_dropped > 0 && 4 * kept <= kPhotoShare * limit) break;  // they fit as they are
     // Even a photograph of which only coarse levels are kept is decoded whole.
     const double decoding = num_dropped > 0 ? kDecodingShare * largest_photo : 0;
     const double taken =
