@@ -16,7 +16,7 @@ struct EdgeBias {
   double edge_turn_m = 0.037;
   // What all edges may lie off together (reveals, joints, frames). Widens the covariance and leaves
   // the solution alone.
-  double shared_offset_m = 0.02;
+  double shared_offset_m = 0.016;
 };
 
 // One edge sample with what the photograph says of it.

@@ -16,13 +16,16 @@ Eigen::Matrix<double, Eigen::Dynamic, kNumSharedPushes> WhitenedSharedPushes(
   for (size_t i = 0; i < samples.size(); ++i) {
     const AlignedSample& sample = samples[i];
     const double along_axis = sample.is_upright ? sample.normal.x() : sample.normal.y();
-    const double from_middle = sample.is_upright ? sample.origin_px.x() - width_px / 2.0
-                                                 : sample.origin_px.y() - height_px / 2.0;
+    const double right = sample.origin_px.x() - width_px / 2.0;
+    const double down = sample.origin_px.y() - height_px / 2.0;
+    const double outwards = sample.is_upright ? right : down;
+    const double sideways = sample.is_upright ? -down : right;
     const double push =
         -std::sqrt(sample.precision) * std::copysign(sample.shared_bias_px, along_axis);
-    const Eigen::Index first = sample.is_upright ? 0 : 2;
+    const Eigen::Index first = sample.is_upright ? 0 : 3;
     pushes(static_cast<Eigen::Index>(i), first) = push;
-    pushes(static_cast<Eigen::Index>(i), first + 1) = std::copysign(push, push * from_middle);
+    pushes(static_cast<Eigen::Index>(i), first + 1) = std::copysign(push, push * outwards);
+    pushes(static_cast<Eigen::Index>(i), first + 2) = std::copysign(push, push * sideways);
   }
   EdgeWhitening(samples).Apply(pushes);
   return pushes;

@@ -10,9 +10,11 @@
 namespace groundglass {
 
 // Ways in which all edges may lie off together, one sigma each as the samples' shared_bias_px say:
-// upright edges all to the right, or all away from the picture's middle; the others all down, or
-// all away from the middle. How each changes the whitened residuals of samples of ONE edge.
-constexpr int kNumSharedPushes = 4;
+// upright edges all to the right, all away from the picture's middle, or leaning over (those in the
+// upper half to the right, those in the lower to the left); the others all down, all away from the
+// middle, or sloping (down on the right, up on the left).
+// How each changes the whitened residuals of samples of ONE edge.
+constexpr int kNumSharedPushes = 6;
 Eigen::Matrix<double, Eigen::Dynamic, kNumSharedPushes> WhitenedSharedPushes(
     std::span<const AlignedSample> samples, int width_px, int height_px);
 
