@@ -258,4 +258,28 @@ std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
   return hypotheses;
 }
 
+double BendOfPrior(const std::vector<EdgeSample>& samples,
+                   const CameraPrior& prior,
+                   const ViewTag& measured,
+                   int width_px,
+                   int height_px) {
+  const auto project = [&](const CameraParameters& parameters) {
+    const ParameterProjection projection(parameters, measured.k2, width_px, height_px);
+    return ProjectSamples(samples, projection);
+  };
+  const std::vector<ProjectedSample> middle = project(prior.mean);
+  double sum = 0;
+  int count = 0;
+  for (int k = 0; k < kNumCameraParameters; ++k) {
+    const std::vector<ProjectedSample> ahead = project(prior.mean + 2 * prior.root.col(k));
+    const std::vector<ProjectedSample> behind = project(prior.mean - 2 * prior.root.col(k));
+    for (size_t i = 0; i < samples.size(); ++i) {
+      count += k == 0;
+      if (!middle[i].is_valid || !ahead[i].is_valid || !behind[i].is_valid) continue;
+      sum += ((ahead[i].image_px + behind[i].image_px) / 2 - middle[i].image_px).squaredNorm();
+    }
+  }
+  return std::sqrt(sum / std::max(1, count));
+}
+
 }  // namespace groundglass

@@ -23,6 +23,13 @@ struct HypothesisOptions {
   int max_starts = 8;
   // Starts nearer than this to a better one are the same, in cells.
   double distinct_cells = 1.5;
+  // The search moves the edges linearly, and moves those that its centre sees. Where the prior is
+  // so wide that their true paths bend by more than a step of the grid, and the best solution
+  // scores below this for each vote that was cast, the search begins anew about the best solutions,
+  // with half the reach each time.
+  double again_below_nats_per_vote = 0.5;
+  int max_rounds = 4;
+  int num_centres = 3;
 };
 
 // A start for refinement: whitened parameters (CameraPrior) and its coarse log score.
@@ -41,5 +48,13 @@ std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
                                        int height_px,
                                        const EdgeEvidence& evidence,
                                        const HypothesisOptions& options);
+
+// How far the edges' true paths bend away from the straight ones that the search takes: the part
+// that grows with the square of the parameters, at two standard deviations, root mean square, px.
+double BendOfPrior(const std::vector<EdgeSample>& samples,
+                   const CameraPrior& prior,
+                   const ViewTag& measured,
+                   int width_px,
+                   int height_px);
 
 }  // namespace groundglass

@@ -45,6 +45,12 @@ std::vector<ControlPoint> PointsIn(const std::string& photograph,
   return own;
 }
 
+void SortBestFirst(std::vector<Solution>& solutions) {
+  std::stable_sort(solutions.begin(), solutions.end(), [](const Solution& a, const Solution& b) {
+    return a.TotalScore() > b.TotalScore();
+  });
+}
+
 }  // namespace
 
 void RegisterOptions::Check() const {
@@ -110,27 +116,52 @@ PhotographAlignment AlignPhotograph(const std::string& name,
 
   // Refine and score each.
   std::vector<Solution> solutions;
-  for (const Hypothesis& hypothesis : hypotheses) {
+  const auto refine_and_score = [&](const CameraParameters& whitened) {
     Solution solution;
-    solution.refinement = RefineFrom(pointed.offset + pointed.map * hypothesis.whitened,
-                                     edge_model,
-                                     evidence,
-                                     prior,
-                                     measured,
-                                     width_px,
-                                     height_px,
-                                     refine,
-                                     points);
+    solution.refinement = RefineFrom(
+        whitened, edge_model, evidence, prior, measured, width_px, height_px, refine, points);
     const ParameterProjection projection(
         prior.mean + prior.root * solution.refinement.whitened, measured.k2, width_px, height_px);
     solution.score =
         ScoreAlignment(solution.refinement.samples, projection, evidence, options.score);
     solution.control_point_nats = ControlPointNats(points, projection);
     solutions.push_back(std::move(solution));
+  };
+  for (const Hypothesis& hypothesis : hypotheses) {
+    refine_and_score(pointed.offset + pointed.map * hypothesis.whitened);
   }
-  std::stable_sort(solutions.begin(), solutions.end(), [](const Solution& a, const Solution& b) {
-    return a.TotalScore() > b.TotalScore();
-  });
+  SortBestFirst(solutions);
+  const bool is_bent = BendOfPrior(start_samples, pointed.prior, measured, width_px, height_px) >
+                       options.hypotheses.step_cells * width_px / options.hypotheses.width_cells;
+  double reach = 1;
+  for (int round = 1;
+       is_bent && round < options.hypotheses.max_rounds && options.hypotheses.max_starts > 0 &&
+       solutions.front().score.nats <
+           options.hypotheses.again_below_nats_per_vote * solutions.front().score.votes;
+       ++round) {
+    reach /= 2;
+    std::vector<CameraParameters> centres;
+    for (const Solution& solution : solutions) {
+      if (static_cast<int>(centres.size()) == options.hypotheses.num_centres) break;
+      centres.push_back(solution.refinement.whitened);
+    }
+    for (const CameraParameters& centre : centres) {
+      CameraPrior about = pointed.prior;
+      about.mean = prior.mean + prior.root * centre;
+      about.root *= reach;
+      const std::vector<EdgeSample> samples =
+          SampleVisibleEdges(edge_model,
+                             CameraFromParameters(about.mean, measured, width_px, height_px),
+                             0.02 * width_px,
+                             10);
+      if (samples.size() < 10) continue;
+      for (const Hypothesis& hypothesis : FindHypotheses(
+               samples, about, measured, width_px, height_px, evidence, options.hypotheses)) {
+        refine_and_score(centre + reach * (pointed.map * hypothesis.whitened));
+      }
+    }
+    SortBestFirst(solutions);
+  }
   const Solution& best = solutions.front();
   const ParameterProjection best_projection(
       prior.mean + prior.root * best.refinement.whitened, measured.k2, width_px, height_px);
