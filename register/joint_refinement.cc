@@ -302,7 +302,7 @@ Eigen::MatrixXd JointSolver::SharedPushes(const NormalEquations& equations) cons
 
 // What is left, one column for each family of edges in each photograph, and for each family's
 // displacements: where edges of a family err together, what is left of them does not average out
-// (cluster-robust covariance; Liang and Zeger, Biometrika 1986).
+// (Liang and Zeger, Biometrika 1986).
 Eigen::MatrixXd JointSolver::FamilyPushes(const NormalEquations& equations) const {
   const std::vector<int> families = FindEdgeFamilies(edge_model_.model, edge_model_.edges);
   constexpr int kAllPhotographs = -1;
