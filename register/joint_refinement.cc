@@ -184,7 +184,7 @@ class JointSolver {
   }
   std::vector<double*> Blocks();
   Eigen::MatrixXd SharedPushes(const NormalEquations& equations) const;
-  Eigen::MatrixXd FamilyPushes(const NormalEquations& equations) const;
+  Eigen::SparseMatrix<double> FamilyPushes(const NormalEquations& equations) const;
 
   const EdgeModel& edge_model_;
   const std::vector<AlignedPhotograph>& photographs_;
@@ -303,16 +303,18 @@ Eigen::MatrixXd JointSolver::SharedPushes(const NormalEquations& equations) cons
 // What is left, one column for each family of edges in each photograph, and for each family's
 // displacements: where edges of a family err together, what is left of them does not average out
 // (Liang and Zeger, Biometrika 1986).
-Eigen::MatrixXd JointSolver::FamilyPushes(const NormalEquations& equations) const {
+Eigen::SparseMatrix<double> JointSolver::FamilyPushes(const NormalEquations& equations) const {
   const std::vector<int> families = FindEdgeFamilies(edge_model_.model, edge_model_.edges);
   constexpr int kAllPhotographs = -1;
-  std::map<std::pair<int, int>, Eigen::VectorXd> pushes;  // of photograph and family
+  std::map<std::pair<int, int>, int> column_of_family;  // of photograph and family
+  std::vector<Eigen::Triplet<double>> pushes;
   const auto add = [&](int photograph, int edge, const NormalEquations::Rows& rows) {
-    auto& push = pushes
-                     .try_emplace({photograph, families[edge]},
-                                  Eigen::VectorXd::Zero(equations.Residuals().size()))
-                     .first->second;
-    push.segment(rows.first, rows.size) = equations.Residuals().segment(rows.first, rows.size);
+    const int next = static_cast<int>(column_of_family.size());
+    const int column =
+        column_of_family.try_emplace({photograph, families[edge]}, next).first->second;
+    for (Eigen::Index row = rows.first; row < rows.first + rows.size; ++row) {
+      pushes.emplace_back(static_cast<int>(row), column, equations.Residuals()[row]);
+    }
   };
   for (size_t i = 0; i < runs_.size(); ++i) {
     add(static_cast<int>(runs_[i].photograph),
@@ -324,15 +326,15 @@ Eigen::MatrixXd JointSolver::FamilyPushes(const NormalEquations& equations) cons
       add(kAllPhotographs, static_cast<int>(edge), equations.RowsOfCosts().at(cost));
     }
   }
-  Eigen::MatrixXd columns(equations.Residuals().size(), static_cast<Eigen::Index>(pushes.size()));
-  Eigen::Index column = 0;
-  for (const auto& [key, push] : pushes) columns.col(column++) = push;
+  Eigen::SparseMatrix<double> columns(equations.Residuals().size(),
+                                      static_cast<Eigen::Index>(column_of_family.size()));
+  columns.setFromTriplets(pushes.begin(), pushes.end());
   return columns;
 }
 
 JointRefinement JointSolver::Result() {
   const NormalEquations equations(*problem_, Blocks());
-  const Eigen::MatrixXd by_shared = equations.Answer(SharedPushes(equations));
+  const Eigen::MatrixXd by_shared = equations.Answer(SharedPushes(equations).sparseView());
   const Eigen::MatrixXd by_family = equations.Answer(FamilyPushes(equations));
 
   JointRefinement joint;

@@ -42,8 +42,9 @@ NormalEquations::NormalEquations(ceres::Problem& problem, const std::vector<doub
   }
 }
 
-Eigen::MatrixXd NormalEquations::Answer(const Eigen::MatrixXd& pushes) const {
-  return inverse_.solve(Eigen::MatrixXd(jacobian_.transpose() * pushes));
+Eigen::MatrixXd NormalEquations::Answer(const Eigen::SparseMatrix<double>& pushes) const {
+  const Eigen::SparseMatrix<double> by_column = jacobian_.transpose() * pushes;
+  return inverse_.solve(Eigen::MatrixXd(by_column));
 }
 
 Eigen::MatrixXd NormalEquations::CovarianceColumns(Eigen::Index first, Eigen::Index size) const {

@@ -28,7 +28,7 @@ class NormalEquations {
   Eigen::Index ColumnOf(const double* block) const { return column_of_block_.at(block); }
   Eigen::Index NumColumns() const { return jacobian_.cols(); }
   // How far the solution moves for each of these columns, taken off the residuals.
-  Eigen::MatrixXd Answer(const Eigen::MatrixXd& pushes) const;
+  Eigen::MatrixXd Answer(const Eigen::SparseMatrix<double>& pushes) const;
   // The inverse normal equations' columns first to first + size - 1.
   Eigen::MatrixXd CovarianceColumns(Eigen::Index first, Eigen::Index size) const;
 

@@ -40,7 +40,7 @@ TEST(NormalEquations, KnowWhatMovesTheSolutionAndHowFar) {
   Eigen::MatrixXd pushes = Eigen::MatrixXd::Zero(2, 2);
   pushes(equations.RowsOfCosts().at(first).first, 0) = 1;
   pushes(equations.RowsOfCosts().at(second).first, 1) = 1;
-  const Eigen::MatrixXd answer = equations.Answer(pushes);
+  const Eigen::MatrixXd answer = equations.Answer(pushes.sparseView());
   EXPECT_NEAR(answer(0, 0), -0.5, 1e-12);
   EXPECT_NEAR(answer(1, 0), 0.5, 1e-12);
   EXPECT_NEAR(answer(0, 1), 1, 1e-12);
