@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -110,7 +110,7 @@ class JointSolver {
     }
   }
 
-  // Moves everything, candidates held. Leaves the problem for Covariances.
+  // Moves everything, candidates held. Leaves the problem for Result.
   void Solve() {
     problem_ = std::make_unique<ceres::Problem>();
     edge_costs_.clear();
@@ -263,8 +263,10 @@ void JointSolver::MatchPhotograph(size_t p, double range_px) {
 
 void JointSolver::EstimateSharedOffset() {
   std::vector<double> offsets_m;
-  for (const MovingEdge& edge : edges_) {
-    if (edge.num_photographs < 2) continue;
+  for (size_t number = 0; number < edges_.size(); ++number) {
+    const MovingEdge& edge = edges_[number];
+    // The ground has a level of its own; its edges' displacements stay zero and say nothing.
+    if (edge.num_photographs < 2 || edge_model_.coarseness[number].on_ground) continue;
     offsets_m.push_back(edge.frame.Displacement(edge.displacement, 0).norm() / units_per_metre_);
   }
   if (offsets_m.empty()) return;
