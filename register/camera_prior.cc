@@ -63,7 +63,13 @@ void PriorOptions::Check() const {
   }
 }
 
+Camera CameraPrior::CameraAt(const CameraParameters& whitened) const {
+  return CameraFromTag(TagFromParameters(ParametersAt(whitened), measured), width_px, height_px);
+}
+
 CameraPrior MakeCameraPrior(const ViewTag& tag,
+                            int width_px,
+                            int height_px,
                             LengthUnit unit,
                             const std::optional<Lens>& lens,
                             const PriorOptions& options) {
@@ -79,6 +85,9 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
   const double lookat = length_sigma(noted_sigmas.lookat, options.lookat_m, options.lookat_share);
 
   CameraPrior prior;
+  prior.measured = tag;
+  prior.width_px = width_px;
+  prior.height_px = height_px;
   prior.mean = ParametersFromTag(tag);
   CameraCovariance covariance = CameraCovariance::Zero();
 

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
+#include "register/parameter_projection.h"
+#include "scene/camera.h"
 #include "scene/lens.h"
 #include "scene/polygon_model.h"
 #include "scene/registration.h"
@@ -43,13 +45,29 @@ struct PriorOptions {
 
 // What is known of a photograph's camera before looking at the photograph: a normal distribution
 // over CameraParameters. Position and look-at point are measured apart, so position and direction
-// are correlated. covariance = root * root^T; parameters = mean + root * u with u standard normal.
+// are correlated. covariance = root * root^T; parameters = mean + root * u with u standard normal,
+// the whitened parameters.
 struct CameraPrior {
   CameraParameters mean = CameraParameters::Zero();
   CameraCovariance root = CameraCovariance::Zero();
   CameraParameters sigmas = CameraParameters::Zero();
+  ViewTag measured;  // what is not solved for (k2) stays as it says
+  // Of the picture that is aligned, in whose pixels the camera projects.
+  int width_px = 0;
+  int height_px = 0;
+
+  CameraParameters ParametersAt(const CameraParameters& whitened) const {
+    return mean + root * whitened;
+  }
+  ParameterProjection ProjectionAt(const CameraParameters& whitened) const {
+    return {ParametersAt(whitened), measured.k2, width_px, height_px};
+  }
+  Camera CameraAt(const CameraParameters& whitened) const;
 };
+// width_px x height_px: of the picture that is aligned.
 CameraPrior MakeCameraPrior(const ViewTag& tag,
+                            int width_px,
+                            int height_px,
                             LengthUnit unit,
                             const std::optional<Lens>& lens,
                             const PriorOptions& options);

@@ -7,11 +7,8 @@
 namespace groundglass {
 
 ControlPointCost::ControlPointCost(const std::vector<ControlPoint>& points,
-                                   const CameraPrior& prior,
-                                   double k2,
-                                   int width_px,
-                                   int height_px)
-    : points_(points), prior_(prior), k2_(k2), width_px_(width_px), height_px_(height_px) {
+                                   const CameraPrior& prior)
+    : points_(points), prior_(prior) {
   set_num_residuals(2 * static_cast<int>(points.size()));
   mutable_parameter_block_sizes()->push_back(kNumCameraParameters);
 }
@@ -21,8 +18,7 @@ bool ControlPointCost::Evaluate(double const* const* parameters,
                                 double** jacobians) const {
   using Rows = Eigen::Matrix<double, 2, kNumCameraParameters, Eigen::RowMajor>;
   const Eigen::Map<const CameraParameters> whitened(parameters[0]);
-  const ParameterProjection projection(
-      prior_.mean + prior_.root * whitened, k2_, width_px_, height_px_);
+  const ParameterProjection projection = prior_.ProjectionAt(whitened);
   for (size_t i = 0; i < points_.size(); ++i) {
     const ControlPoint& point = points_[i];
     const auto projected = projection.Project(point.point_in_world);

@@ -15,14 +15,10 @@ namespace groundglass {
 //   r_i = (project(point_i; mean + root u) - image_i) / sigma_i
 // Block: u, 11 whitened parameters. Residuals: two for each point, without unit. A point behind
 // the camera fails the evaluation. Points, prior: must outlive the cost; image_i in pixels of the
-// width x height picture.
+// prior's picture.
 class ControlPointCost : public ceres::CostFunction {
  public:
-  ControlPointCost(const std::vector<ControlPoint>& points,
-                   const CameraPrior& prior,
-                   double k2,
-                   int width_px,
-                   int height_px);
+  ControlPointCost(const std::vector<ControlPoint>& points, const CameraPrior& prior);
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override;
@@ -30,9 +26,6 @@ class ControlPointCost : public ceres::CostFunction {
  private:
   const std::vector<ControlPoint>& points_;
   const CameraPrior& prior_;
-  double k2_;
-  int width_px_;
-  int height_px_;
 };
 
 }  // namespace groundglass

@@ -10,11 +10,8 @@
 namespace groundglass {
 
 EdgeAlignmentCost::EdgeAlignmentCost(const std::vector<AlignedSample>& samples,
-                                     const CameraPrior& prior,
-                                     double k2,
-                                     int width_px,
-                                     int height_px)
-    : samples_(samples), prior_(prior), k2_(k2), width_px_(width_px), height_px_(height_px) {
+                                     const CameraPrior& prior)
+    : samples_(samples), prior_(prior) {
   set_num_residuals(static_cast<int>(samples.size()));
   mutable_parameter_block_sizes()->push_back(kNumCameraParameters);
 }
@@ -24,8 +21,7 @@ bool EdgeAlignmentCost::Evaluate(double const* const* parameters,
                                  double** jacobians) const {
   using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, kNumCameraParameters, Eigen::RowMajor>;
   const Eigen::Map<const CameraParameters> whitened(parameters[0]);
-  const ParameterProjection projection(
-      prior_.mean + prior_.root * whitened, k2_, width_px_, height_px_);
+  const ParameterProjection projection = prior_.ProjectionAt(whitened);
   const auto count = static_cast<Eigen::Index>(samples_.size());
   Eigen::Map<Eigen::VectorXd> r(residuals, count);
   const bool with_jacobian = jacobians && jacobians[0];

@@ -18,11 +18,7 @@ namespace groundglass {
 // parameters. Residuals: one per sample, without unit.
 class EdgeAlignmentCost : public ceres::CostFunction {
  public:
-  EdgeAlignmentCost(const std::vector<AlignedSample>& samples,
-                    const CameraPrior& prior,
-                    double k2,
-                    int width_px,
-                    int height_px);
+  EdgeAlignmentCost(const std::vector<AlignedSample>& samples, const CameraPrior& prior);
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override;
@@ -30,9 +26,6 @@ class EdgeAlignmentCost : public ceres::CostFunction {
  private:
   const std::vector<AlignedSample>& samples_;
   const CameraPrior& prior_;
-  double k2_;
-  int width_px_;
-  int height_px_;
 };
 
 }  // namespace groundglass

@@ -51,6 +51,13 @@ std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
   return samples;
 }
 
+std::vector<Eigen::Vector3d> PointsOf(const std::vector<EdgeSample>& samples) {
+  std::vector<Eigen::Vector3d> points_in_world;
+  points_in_world.reserve(samples.size());
+  for (const EdgeSample& sample : samples) points_in_world.push_back(sample.point_in_world);
+  return points_in_world;
+}
+
 std::vector<ProjectedSample> ProjectSamples(const std::vector<EdgeSample>& samples,
                                             const ParameterProjection& projection) {
   std::vector<ProjectedSample> projected(samples.size());
@@ -72,13 +79,6 @@ std::vector<ProjectedSample> ProjectSamples(const std::vector<EdgeSample>& sampl
     projected[i].px_per_unit = here->px_per_unit;
   }
   return projected;
-}
-
-Camera CameraFromParameters(const CameraParameters& parameters,
-                            const ViewTag& measured,
-                            int width_px,
-                            int height_px) {
-  return CameraFromTag(TagFromParameters(parameters, measured), width_px, height_px);
 }
 
 }  // namespace groundglass

@@ -42,6 +42,8 @@ std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
                                            double margin_px,
                                            double spacing_px);
 
+std::vector<Eigen::Vector3d> PointsOf(const std::vector<EdgeSample>& samples);
+
 // A sample as a camera projects it.
 struct ProjectedSample {
   bool is_valid = false;
@@ -54,11 +56,5 @@ struct ProjectedSample {
 };
 std::vector<ProjectedSample> ProjectSamples(const std::vector<EdgeSample>& samples,
                                             const ParameterProjection& projection);
-
-// The camera with these parameters.
-Camera CameraFromParameters(const CameraParameters& parameters,
-                            const ViewTag& measured,
-                            int width_px,
-                            int height_px);
 
 }  // namespace groundglass

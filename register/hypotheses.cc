@@ -89,12 +89,8 @@ struct LinearSamples {
   CameraCovariance directions;
 };
 
-LinearSamples Linearise(const std::vector<EdgeSample>& samples,
-                        const CameraPrior& prior,
-                        const ViewTag& measured,
-                        int width_px,
-                        int height_px) {
-  const ParameterProjection projection(prior.mean, measured.k2, width_px, height_px);
+LinearSamples Linearise(const std::vector<EdgeSample>& samples, const CameraPrior& prior) {
+  const ParameterProjection projection = prior.ProjectionAt(CameraParameters::Zero());
   LinearSamples linear;
   std::vector<Eigen::Matrix<double, 2, kNumCameraParameters>> by_whitened;
   CameraCovariance information = CameraCovariance::Zero();
@@ -227,13 +223,10 @@ void Climb(const LinearSamples& linear, const ScoreMaps& maps, double step_px, S
 
 std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
                                        const CameraPrior& prior,
-                                       const ViewTag& measured,
-                                       int width_px,
-                                       int height_px,
                                        const EdgeEvidence& evidence,
                                        const HypothesisOptions& options) {
-  const LinearSamples linear = Linearise(samples, prior, measured, width_px, height_px);
-  const double px_per_cell = static_cast<double>(width_px) / options.width_cells;
+  const LinearSamples linear = Linearise(samples, prior);
+  const double px_per_cell = static_cast<double>(prior.width_px) / options.width_cells;
   const ScoreMaps coarse(evidence.AtScale(px_per_cell * 1.01), options.step_cells / 1.5);
   const ScoreMaps fine(evidence.AtScale(px_per_cell * 1.01), 1.0);
 
@@ -258,21 +251,16 @@ std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
   return hypotheses;
 }
 
-double BendOfPrior(const std::vector<EdgeSample>& samples,
-                   const CameraPrior& prior,
-                   const ViewTag& measured,
-                   int width_px,
-                   int height_px) {
-  const auto project = [&](const CameraParameters& parameters) {
-    const ParameterProjection projection(parameters, measured.k2, width_px, height_px);
-    return ProjectSamples(samples, projection);
+double BendOfPrior(const std::vector<EdgeSample>& samples, const CameraPrior& prior) {
+  const auto project = [&](const CameraParameters& whitened) {
+    return ProjectSamples(samples, prior.ProjectionAt(whitened));
   };
-  const std::vector<ProjectedSample> middle = project(prior.mean);
+  const std::vector<ProjectedSample> middle = project(CameraParameters::Zero());
   double sum = 0;
   int count = 0;
   for (int k = 0; k < kNumCameraParameters; ++k) {
-    const std::vector<ProjectedSample> ahead = project(prior.mean + 2 * prior.root.col(k));
-    const std::vector<ProjectedSample> behind = project(prior.mean - 2 * prior.root.col(k));
+    const std::vector<ProjectedSample> ahead = project(2 * CameraParameters::Unit(k));
+    const std::vector<ProjectedSample> behind = project(-2 * CameraParameters::Unit(k));
     for (size_t i = 0; i < samples.size(); ++i) {
       count += k == 0;
       if (!middle[i].is_valid || !ahead[i].is_valid || !behind[i].is_valid) continue;

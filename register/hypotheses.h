@@ -43,18 +43,11 @@ struct Hypothesis {
 // returns the best distinct ones, best first, the tag itself (all zero) last.
 std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
                                        const CameraPrior& prior,
-                                       const ViewTag& measured,
-                                       int width_px,
-                                       int height_px,
                                        const EdgeEvidence& evidence,
                                        const HypothesisOptions& options);
 
 // How far the edges' true paths bend away from the straight ones that the search takes: the part
 // that grows with the square of the parameters, at two standard deviations, root mean square, px.
-double BendOfPrior(const std::vector<EdgeSample>& samples,
-                   const CameraPrior& prior,
-                   const ViewTag& measured,
-                   int width_px,
-                   int height_px);
+double BendOfPrior(const std::vector<EdgeSample>& samples, const CameraPrior& prior);
 
 }  // namespace groundglass

@@ -116,19 +116,14 @@ class JointSolver {
     edge_costs_.clear();
     for (MovingEdge& edge : edges_) edge.prior_costs.clear();
     for (const MatchedRun& run : runs_) {
-      const AlignedPhotograph& photograph = photographs_[run.photograph];
       MovingPhotograph& moving = moving_[run.photograph];
       MovingEdge& edge = MoverOf(run.edge);
-      edge_costs_.push_back(problem_->AddResidualBlock(new SharedEdgeCost(run.samples,
-                                                                          moving.prior,
-                                                                          edge.frame,
-                                                                          photograph.measured.k2,
-                                                                          photograph.width_px,
-                                                                          photograph.height_px),
-                                                       nullptr,
-                                                       moving.own.data(),
-                                                       lenses_[moving.lens].data(),
-                                                       edge.displacement.data()));
+      edge_costs_.push_back(
+          problem_->AddResidualBlock(new SharedEdgeCost(run.samples, moving.prior, edge.frame),
+                                     nullptr,
+                                     moving.own.data(),
+                                     lenses_[moving.lens].data(),
+                                     edge.displacement.data()));
     }
     // Ceres orders the blocks of a group by their addresses: each group is one array, so that the
     // order, and with it the rounding, is the same in every run.
@@ -219,10 +214,8 @@ void JointSolver::StartLenses() {
 void JointSolver::MatchPhotograph(size_t p, double range_px) {
   const AlignedPhotograph& photograph = photographs_[p];
   MovingPhotograph& moving = moving_[p];
-  const ParameterProjection projection(moving.prior.Camera(moving.own, lenses_[moving.lens]),
-                                       photograph.measured.k2,
-                                       photograph.width_px,
-                                       photograph.height_px);
+  const ParameterProjection projection =
+      moving.prior.ProjectionAt(moving.own, lenses_[moving.lens]);
   std::vector<WeightedValue> residuals;
   std::vector<double> run_residuals_px;
   moving.num_matched = 0;
@@ -295,9 +288,9 @@ Eigen::MatrixXd JointSolver::SharedPushes(const NormalEquations& equations) cons
   Eigen::MatrixXd pushes = Eigen::MatrixXd::Zero(equations.Residuals().size(), kNumSharedPushes);
   for (size_t i = 0; i < runs_.size(); ++i) {
     const auto [first, size] = equations.RowsOfCosts().at(edge_costs_[i]);
-    const AlignedPhotograph& photograph = photographs_[runs_[i].photograph];
+    const CameraPrior& prior = photographs_[runs_[i].photograph].prior;
     pushes.middleRows(first, size) =
-        WhitenedSharedPushes(runs_[i].samples, photograph.width_px, photograph.height_px);
+        WhitenedSharedPushes(runs_[i].samples, prior.width_px, prior.height_px);
   }
   return pushes;
 }

@@ -13,9 +13,6 @@ namespace groundglass {
 // One photograph as it was aligned by itself, with what it offers about the camera found.
 struct AlignedPhotograph {
   CameraPrior prior;
-  ViewTag measured;
-  int width_px = 0;  // of the picture that was aligned
-  int height_px = 0;
   std::vector<CandidateSample> found;  // sorted by edge
   CameraParameters whitened = CameraParameters::Zero();
   double noise_px = 1;  // spread of the matched residuals

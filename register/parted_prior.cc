@@ -9,7 +9,7 @@ namespace groundglass {
 PartedPrior PartPrior(const CameraPrior& prior, const LensParameters& own_shares) {
   constexpr int kInCamera[kNumLensParameters] = {6, 7, 10};  // kCameraParameterNames: v, a, k1
   PartedPrior parted;
-  parted.mean = prior.mean;
+  parted.whole = prior;
   parted.own_root = prior.root;
   for (int i = 0; i < kNumLensParameters; ++i) {
     const int row = kInCamera[i];

@@ -12,7 +12,7 @@ using LensParameters = Eigen::Matrix<double, kNumLensParameters, 1>;
 
 // A camera's prior in two parts: the photograph's own, and its lens'. Both blocks are whitened.
 struct PartedPrior {
-  CameraParameters mean = CameraParameters::Zero();
+  CameraPrior whole;
   CameraCovariance own_root = CameraCovariance::Zero();
   Eigen::Matrix<double, kNumCameraParameters, kNumLensParameters> lens_root =
       Eigen::Matrix<double, kNumCameraParameters, kNumLensParameters>::Zero();
@@ -20,8 +20,11 @@ struct PartedPrior {
   Eigen::Matrix<double, kNumCameraParameters, kNumCameraParameters + kNumLensParameters>
       whole_from_parts;
 
-  CameraParameters Camera(const CameraParameters& own, const LensParameters& lens) const {
-    return mean + own_root * own + lens_root * lens;
+  ParameterProjection ProjectionAt(const CameraParameters& own, const LensParameters& lens) const {
+    return {whole.mean + own_root * own + lens_root * lens,
+            whole.measured.k2,
+            whole.width_px,
+            whole.height_px};
   }
 };
 

@@ -15,12 +15,8 @@ namespace groundglass {
 namespace {
 
 // Sum over the samples of their variance along the normal, px^2.
-double SumOfVariances(const CameraPrior& prior,
-                      const std::vector<EdgeSample>& samples,
-                      const ViewTag& measured,
-                      int width_px,
-                      int height_px) {
-  const ParameterProjection projection(prior.mean, measured.k2, width_px, height_px);
+double SumOfVariances(const CameraPrior& prior, const std::vector<EdgeSample>& samples) {
+  const ParameterProjection projection = prior.ProjectionAt(CameraParameters::Zero());
   double sum = 0;
   for (const ProjectedSample& sample : ProjectSamples(samples, projection)) {
     if (sample.is_valid) sum += (sample.jacobian * prior.root).squaredNorm();
@@ -30,18 +26,14 @@ double SumOfVariances(const CameraPrior& prior,
 
 }  // namespace
 
-PointedPrior NarrowByPoints(const std::vector<ControlPoint>& points,
-                            const CameraPrior& prior,
-                            const ViewTag& measured,
-                            int width_px,
-                            int height_px) {
+PointedPrior NarrowByPoints(const std::vector<ControlPoint>& points, const CameraPrior& prior) {
   PointedPrior pointed;
   pointed.prior = prior;
   if (points.empty()) return pointed;
 
   ceres::Problem::Options problem_options;
   problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ControlPointCost pointing(points, prior, measured.k2, width_px, height_px);
+  ControlPointCost pointing(points, prior);
   StandardNormalCost<kNumCameraParameters> whitened_prior;
   CameraParameters whitened = CameraParameters::Zero();
   ceres::Problem problem(problem_options);
@@ -67,7 +59,7 @@ PointedPrior NarrowByPoints(const std::vector<ControlPoint>& points,
       CameraCovariance::Identity() + jacobian.transpose() * jacobian;
   pointed.offset = whitened;
   pointed.map = Eigen::SelfAdjointEigenSolver<CameraCovariance>(information).operatorInverseSqrt();
-  pointed.prior.mean = prior.mean + prior.root * whitened;
+  pointed.prior.mean = prior.ParametersAt(whitened);
   pointed.prior.root = prior.root * pointed.map;
   pointed.prior.sigmas = pointed.prior.root.rowwise().norm();
   return pointed;
@@ -75,12 +67,9 @@ PointedPrior NarrowByPoints(const std::vector<ControlPoint>& points,
 
 double NarrowingOf(const PointedPrior& pointed,
                    const CameraPrior& prior,
-                   const std::vector<EdgeSample>& samples,
-                   const ViewTag& measured,
-                   int width_px,
-                   int height_px) {
-  const double before = SumOfVariances(prior, samples, measured, width_px, height_px);
-  const double after = SumOfVariances(pointed.prior, samples, measured, width_px, height_px);
+                   const std::vector<EdgeSample>& samples) {
+  const double before = SumOfVariances(prior, samples);
+  const double after = SumOfVariances(pointed.prior, samples);
   return before > 0 ? std::min(1.0, std::sqrt(after / before)) : 1;
 }
 

@@ -21,21 +21,14 @@ struct PointedPrior {
 
 // The prior from the tag, narrowed by the points (the most likely camera, and its covariance to
 // first order). Without points, or if one lies behind the tag's camera, it is the tag's own.
-// Points in pixels of the width x height picture.
-PointedPrior NarrowByPoints(const std::vector<ControlPoint>& points,
-                            const CameraPrior& prior,
-                            const ViewTag& measured,
-                            int width_px,
-                            int height_px);
+// Points in pixels of the prior's picture.
+PointedPrior NarrowByPoints(const std::vector<ControlPoint>& points, const CameraPrior& prior);
 
 // How much narrower the search has become: the ratio of the root mean square uncertainties of the
 // samples along their normals, after and before; at most 1.
 double NarrowingOf(const PointedPrior& pointed,
                    const CameraPrior& prior,
-                   const std::vector<EdgeSample>& samples,
-                   const ViewTag& measured,
-                   int width_px,
-                   int height_px);
+                   const std::vector<EdgeSample>& samples);
 
 // Log density, up to a constant, of what was pointed at, seen from a camera, in nats: minus half
 // the sum of the squared residuals in sigmas. A point behind the camera counts as 1000 sigmas off.

@@ -51,12 +51,8 @@ std::vector<AlignedSample> AlignSamples(const std::vector<EdgeSample>& samples,
 // Spread of the residuals of the likely matches, px: weighted median of their absolute values.
 double EstimateNoise(const std::vector<AlignedSample>& aligned,
                      const CameraPrior& prior,
-                     const CameraParameters& whitened,
-                     const ViewTag& measured,
-                     int width_px,
-                     int height_px) {
-  const ParameterProjection projection(
-      prior.mean + prior.root * whitened, measured.k2, width_px, height_px);
+                     const CameraParameters& whitened) {
+  const ParameterProjection projection = prior.ProjectionAt(whitened);
   std::vector<WeightedValue> residuals;
   for (const AlignedSample& sample : aligned) {
     const auto projected = projection.Project(sample.point_in_world);
@@ -72,16 +68,13 @@ double EstimateNoise(const std::vector<AlignedSample>& aligned,
 void Solve(const std::vector<AlignedSample>& aligned,
            const std::vector<ControlPoint>& points,
            const CameraPrior& prior,
-           const ViewTag& measured,
-           int width_px,
-           int height_px,
            int max_iterations,
            CameraParameters& whitened,
            CameraCovariance* covariance) {
   ceres::Problem::Options problem_options;
   problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  EdgeAlignmentCost alignment(aligned, prior, measured.k2, width_px, height_px);
-  ControlPointCost pointing(points, prior, measured.k2, width_px, height_px);
+  EdgeAlignmentCost alignment(aligned, prior);
+  ControlPointCost pointing(points, prior);
   StandardNormalCost<kNumCameraParameters> whitened_prior;
   ceres::Problem problem(problem_options);
   problem.AddResidualBlock(&alignment, nullptr, whitened.data());
@@ -114,9 +107,6 @@ Refinement RefineFrom(const CameraParameters& start,
                       const EdgeModel& edge_model,
                       const EdgeEvidence& evidence,
                       const CameraPrior& prior,
-                      const ViewTag& measured,
-                      int width_px,
-                      int height_px,
                       const RefineOptions& options,
                       const std::vector<ControlPoint>& points) {
   // Steps at the final range: the mixture settles in a few.
@@ -126,19 +116,14 @@ Refinement RefineFrom(const CameraParameters& start,
   Refinement refinement;
   refinement.whitened = start;
   const auto sample_edges = [&] {
-    const CameraParameters parameters = prior.mean + prior.root * refinement.whitened;
     refinement.samples =
-        SampleVisibleEdges(edge_model,
-                           CameraFromParameters(parameters, measured, width_px, height_px),
-                           -3,
-                           options.spacing_px);
+        SampleVisibleEdges(edge_model, prior.CameraAt(refinement.whitened), -3, options.spacing_px);
   };
   sample_edges();
 
   double widest_prior_px = 0;
   {
-    const ParameterProjection projection(
-        prior.mean + prior.root * start, measured.k2, width_px, height_px);
+    const ParameterProjection projection = prior.ProjectionAt(start);
     for (const ProjectedSample& sample : ProjectSamples(refinement.samples, projection)) {
       if (sample.is_valid) {
         widest_prior_px = std::max(widest_prior_px, (sample.jacobian * prior.root).norm());
@@ -149,20 +134,15 @@ Refinement RefineFrom(const CameraParameters& start,
   Annealing annealing{options.start_sigmas, 1};
   std::vector<AlignedSample> aligned;
   const auto match_and_solve = [&](int max_iterations, CameraCovariance* covariance) {
-    const ParameterProjection projection(
-        prior.mean + prior.root * refinement.whitened, measured.k2, width_px, height_px);
-    aligned = AlignSamples(
-        refinement.samples, evidence, prior, projection, units_per_metre, annealing, options);
+    aligned = AlignSamples(refinement.samples,
+                           evidence,
+                           prior,
+                           prior.ProjectionAt(refinement.whitened),
+                           units_per_metre,
+                           annealing,
+                           options);
     if (aligned.size() < 8) return false;
-    Solve(aligned,
-          points,
-          prior,
-          measured,
-          width_px,
-          height_px,
-          max_iterations,
-          refinement.whitened,
-          covariance);
+    Solve(aligned, points, prior, max_iterations, refinement.whitened, covariance);
     return true;
   };
 
@@ -178,13 +158,12 @@ Refinement RefineFrom(const CameraParameters& start,
     before = refinement.whitened;
     const bool is_last = step + 1 == kFinalSteps;
     if (!match_and_solve(5, is_last ? &refinement.covariance : nullptr)) return refinement;
-    annealing.noise_px = std::clamp(
-        EstimateNoise(aligned, prior, refinement.whitened, measured, width_px, height_px),
-        options.min_noise_px,
-        options.matching.final_range_px / 2);
+    annealing.noise_px = std::clamp(EstimateNoise(aligned, prior, refinement.whitened),
+                                    options.min_noise_px,
+                                    options.matching.final_range_px / 2);
   }
-  refinement.covariance += SharedBiasCovariance(
-      aligned, prior, measured.k2, width_px, height_px, refinement.whitened, refinement.covariance);
+  refinement.covariance +=
+      SharedBiasCovariance(aligned, prior, refinement.whitened, refinement.covariance);
   refinement.noise_px = annealing.noise_px;
   refinement.num_matched = static_cast<int>(aligned.size());
   // Between the last two steps a settled solution moves by less than its own uncertainty.

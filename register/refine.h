@@ -40,14 +40,11 @@ struct Refinement {
 // Aligns the model's edges with the photograph's, from a start in whitened parameters: edge
 // candidates as a robust mixture whose width is annealed with the search range (graduated
 // non-convexity), the prior as residuals, each model edge with a marginalised offset. Control
-// points, in pixels of the width x height picture, join the solve as residuals.
+// points, in pixels of the prior's picture, join the solve as residuals.
 Refinement RefineFrom(const CameraParameters& start,
                       const EdgeModel& edge_model,
                       const EdgeEvidence& evidence,
                       const CameraPrior& prior,
-                      const ViewTag& measured,
-                      int width_px,
-                      int height_px,
                       const RefineOptions& options,
                       const std::vector<ControlPoint>& points = {});
 

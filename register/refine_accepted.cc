@@ -53,13 +53,8 @@ std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
     for (const CandidateSample& found : photograph.found) {
       points_in_world.push_back(found.sample.point_in_world);
     }
-    WriteSolution(joint.photographs[i],
-                  photograph.prior,
-                  edge_model.model,
-                  points_in_world,
-                  photograph.width_px,
-                  photograph.height_px,
-                  registration);
+    WriteSolution(
+        joint.photographs[i], photograph.prior, edge_model.model, points_in_world, registration);
     JudgeChange(joint.photographs[i].whitened, photograph.prior, options, registration);
   }
   return joint.displacements;

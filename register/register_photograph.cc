@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/register_photograph.h"
 
+#include "register/find_solutions.h"
 #include "register/pointed_prior.h"
 #include "register/verdict.h"
 #include "register/write_solution.h"
@@ -24,13 +25,6 @@ Image8 Resized(const Image8& image, int width, int height, int interpolation) {
   return resized;
 }
 
-std::vector<Eigen::Vector3d> PointsOf(const std::vector<EdgeSample>& samples) {
-  std::vector<Eigen::Vector3d> points_in_world;
-  points_in_world.reserve(samples.size());
-  for (const EdgeSample& sample : samples) points_in_world.push_back(sample.point_in_world);
-  return points_in_world;
-}
-
 // The photograph's own control points, in pixels of a picture of another size.
 std::vector<ControlPoint> PointsIn(const std::string& photograph,
                                    const std::vector<ControlPoint>& points,
@@ -43,12 +37,6 @@ std::vector<ControlPoint> PointsIn(const std::string& photograph,
     own.back().sigma_px *= scale;
   }
   return own;
-}
-
-void SortBestFirst(std::vector<Solution>& solutions) {
-  std::stable_sort(solutions.begin(), solutions.end(), [](const Solution& a, const Solution& b) {
-    return a.TotalScore() > b.TotalScore();
-  });
 }
 
 }  // namespace
@@ -87,127 +75,45 @@ PhotographAlignment AlignPhotograph(const std::string& name,
       is_reduced ? Resized(grey8, width_px, height_px, cv::INTER_AREA) : grey8,
       is_reduced ? Resized(ignore, width_px, height_px, cv::INTER_NEAREST) : ignore);
 
-  const CameraPrior prior = MakeCameraPrior(measured, edge_model.model.unit, lens, options.prior);
+  const CameraPrior prior =
+      MakeCameraPrior(measured, width_px, height_px, edge_model.model.unit, lens, options.prior);
   registration.prior_sigmas = prior.sigmas;
   registration.sigmas = prior.sigmas;
   const std::vector<ControlPoint> points = PointsIn(name, options.control_points, scale);
-  const PointedPrior pointed = NarrowByPoints(points, prior, measured, width_px, height_px);
-
-  // Starts: what is visible under the tag, widened so that edges just outside may come in.
-  const Camera start_camera =
-      CameraFromParameters(pointed.prior.mean, measured, width_px, height_px);
-  const std::vector<EdgeSample> start_samples =
-      SampleVisibleEdges(edge_model, start_camera, 0.02 * width_px, 10);
-  if (start_samples.size() < 10) {
+  const std::vector<Solution> solutions =
+      FindSolutions(edge_model, evidence, prior, points, options);
+  if (solutions.empty()) {
     registration.reasons.push_back("the measured tag sees almost nothing of the model");
     registration.covariance = prior.root * prior.root.transpose();
     return alignment;
   }
-  std::vector<Hypothesis> hypotheses = {{}};  // the tag itself
-  if (options.hypotheses.max_starts > 0) {
-    hypotheses = FindHypotheses(
-        start_samples, pointed.prior, measured, width_px, height_px, evidence, options.hypotheses);
-  }
-  // Where a person has pointed, the whole of what is left uncertain is searched.
-  RefineOptions refine = options.refine;
-  refine.start_sigmas =
-      std::min(refine.start_sigmas,
-               NarrowingOf(pointed, prior, start_samples, measured, width_px, height_px));
-
-  // Refine and score each.
-  std::vector<Solution> solutions;
-  const auto refine_and_score = [&](const CameraParameters& whitened) {
-    Solution solution;
-    solution.refinement = RefineFrom(
-        whitened, edge_model, evidence, prior, measured, width_px, height_px, refine, points);
-    const ParameterProjection projection(
-        prior.mean + prior.root * solution.refinement.whitened, measured.k2, width_px, height_px);
-    solution.score =
-        ScoreAlignment(solution.refinement.samples, projection, evidence, options.score);
-    solution.control_point_nats = ControlPointNats(points, projection);
-    solutions.push_back(std::move(solution));
-  };
-  for (const Hypothesis& hypothesis : hypotheses) {
-    refine_and_score(pointed.offset + pointed.map * hypothesis.whitened);
-  }
-  SortBestFirst(solutions);
-  const bool is_bent = BendOfPrior(start_samples, pointed.prior, measured, width_px, height_px) >
-                       options.hypotheses.step_cells * width_px / options.hypotheses.width_cells;
-  double reach = 1;
-  for (int round = 1;
-       is_bent && round < options.hypotheses.max_rounds && options.hypotheses.max_starts > 0 &&
-       solutions.front().score.nats <
-           options.hypotheses.again_below_nats_per_vote * solutions.front().score.votes;
-       ++round) {
-    reach /= 2;
-    std::vector<CameraParameters> centres;
-    for (const Solution& solution : solutions) {
-      if (static_cast<int>(centres.size()) == options.hypotheses.num_centres) break;
-      centres.push_back(solution.refinement.whitened);
-    }
-    for (const CameraParameters& centre : centres) {
-      CameraPrior about = pointed.prior;
-      about.mean = prior.mean + prior.root * centre;
-      about.root *= reach;
-      const std::vector<EdgeSample> samples =
-          SampleVisibleEdges(edge_model,
-                             CameraFromParameters(about.mean, measured, width_px, height_px),
-                             0.02 * width_px,
-                             10);
-      if (samples.size() < 10) continue;
-      for (const Hypothesis& hypothesis : FindHypotheses(
-               samples, about, measured, width_px, height_px, evidence, options.hypotheses)) {
-        refine_and_score(centre + reach * (pointed.map * hypothesis.whitened));
-      }
-    }
-    SortBestFirst(solutions);
-  }
   const Solution& best = solutions.front();
-  const ParameterProjection best_projection(
-      prior.mean + prior.root * best.refinement.whitened, measured.k2, width_px, height_px);
-  const std::vector<Eigen::Vector3d> best_points = PointsOf(best.refinement.samples);
-  const Solution* rival = nullptr;
-  double rival_distance_px = 0;
-  for (const Solution& solution : solutions) {
-    const ParameterProjection projection(
-        prior.mean + prior.root * solution.refinement.whitened, measured.k2, width_px, height_px);
-    rival_distance_px = MeanDisplacementPx(best_points, best_projection, projection);
-    if (rival_distance_px > options.rival_distance_px * width_px / 1200.0) {
-      rival = &solution;
-      break;
-    }
-  }
+  const Refinement& refined = best.refinement;
+  const Rival rival = FindRival(solutions, prior, options);
 
   registration.score_nats = best.score.nats;
-  registration.margin_nats = rival ? best.TotalScore() - rival->TotalScore() : 1e6;
-  WriteSolution({best.refinement.whitened,
-                 best.refinement.covariance,
-                 best.refinement.noise_px,
-                 best.refinement.num_matched},
+  registration.margin_nats =
+      rival.solution ? best.TotalScore() - rival.solution->TotalScore() : 1e6;
+  WriteSolution({refined.whitened, refined.covariance, refined.noise_px, refined.num_matched},
                 prior,
                 edge_model.model,
-                best_points,
-                width_px,
-                height_px,
+                PointsOf(refined.samples),
                 registration);
-  JudgeFit(best, rival, rival_distance_px / scale, options, registration);
-  JudgeChange(best.refinement.whitened, prior, options, registration);
-  JudgeControlPoints(
-      points, best_projection, scale, options.max_control_point_sigmas, registration);
+  JudgeFit(best, rival.solution, rival.distance_px / scale, options, registration);
+  JudgeChange(refined.whitened, prior, options, registration);
+  const ParameterProjection projection = prior.ProjectionAt(refined.whitened);
+  JudgeControlPoints(points, projection, scale, options.max_control_point_sigmas, registration);
   if (registration.verdict == Verdict::kAccepted && points.empty()) {
     alignment.aligned = {prior,
-                         measured,
-                         width_px,
-                         height_px,
-                         FindCandidateSamples(best.refinement.samples,
+                         FindCandidateSamples(refined.samples,
                                               evidence,
                                               prior,
-                                              best_projection,
+                                              projection,
                                               0,
                                               1.5 * options.joint.start_range_px,
                                               options.joint.matching),
-                         best.refinement.whitened,
-                         best.refinement.noise_px};
+                         refined.whitened,
+                         refined.noise_px};
   }
   return alignment;
 }

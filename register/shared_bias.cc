@@ -33,9 +33,6 @@ Eigen::Matrix<double, Eigen::Dynamic, kNumSharedPushes> WhitenedSharedPushes(
 
 CameraCovariance SharedBiasCovariance(const std::vector<AlignedSample>& samples,
                                       const CameraPrior& prior,
-                                      double k2,
-                                      int width_px,
-                                      int height_px,
                                       const CameraParameters& whitened,
                                       const CameraCovariance& covariance) {
   using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, kNumCameraParameters, Eigen::RowMajor>;
@@ -44,8 +41,7 @@ CameraCovariance SharedBiasCovariance(const std::vector<AlignedSample>& samples,
   Eigen::VectorXd residuals(count);
   Jacobian jacobian(count, kNumCameraParameters);
   double* jacobians[] = {jacobian.data()};
-  if (!EdgeAlignmentCost(samples, prior, k2, width_px, height_px)
-           .Evaluate(&block, residuals.data(), jacobians)) {
+  if (!EdgeAlignmentCost(samples, prior).Evaluate(&block, residuals.data(), jacobians)) {
     return CameraCovariance::Zero();
   }
   Eigen::Matrix<double, Eigen::Dynamic, kNumSharedPushes> pushes(count, kNumSharedPushes);
@@ -53,7 +49,7 @@ CameraCovariance SharedBiasCovariance(const std::vector<AlignedSample>& samples,
     size_t end = start;
     while (end < samples.size() && samples[end].edge == samples[start].edge) ++end;
     pushes.middleRows(static_cast<Eigen::Index>(start), static_cast<Eigen::Index>(end - start)) =
-        WhitenedSharedPushes({&samples[start], end - start}, width_px, height_px);
+        WhitenedSharedPushes({&samples[start], end - start}, prior.width_px, prior.height_px);
     start = end;
   }
   // One Gauss-Newton step each: how far the solution follows.

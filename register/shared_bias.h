@@ -24,9 +24,6 @@ Eigen::Matrix<double, Eigen::Dynamic, kNumSharedPushes> WhitenedSharedPushes(
 // covariance: of the whitened parameters at the solution. Returns what to add to it.
 CameraCovariance SharedBiasCovariance(const std::vector<AlignedSample>& samples,
                                       const CameraPrior& prior,
-                                      double k2,
-                                      int width_px,
-                                      int height_px,
                                       const CameraParameters& whitened,
                                       const CameraCovariance& covariance);
 

@@ -11,16 +11,8 @@ namespace groundglass {
 
 SharedEdgeCost::SharedEdgeCost(std::vector<AlignedSample> samples,
                                const PartedPrior& prior,
-                               const EdgeFrame& frame,
-                               double k2,
-                               int width_px,
-                               int height_px)
-    : samples_(std::move(samples)),
-      prior_(prior),
-      frame_(frame),
-      k2_(k2),
-      width_px_(width_px),
-      height_px_(height_px) {
+                               const EdgeFrame& frame)
+    : samples_(std::move(samples)), prior_(prior), frame_(frame) {
   set_num_residuals(static_cast<int>(samples_.size()));
   *mutable_parameter_block_sizes() = {kNumCameraParameters, kNumLensParameters, 4};
 }
@@ -34,7 +26,7 @@ bool SharedEdgeCost::Evaluate(double const* const* parameters,
   const Eigen::Map<const CameraParameters> whitened(parameters[0]);
   const Eigen::Map<const Eigen::Vector4d> displacement(parameters[2]);
   const Eigen::Map<const LensParameters> lens(parameters[1]);
-  const ParameterProjection projection(prior_.Camera(whitened, lens), k2_, width_px_, height_px_);
+  const ParameterProjection projection = prior_.ProjectionAt(whitened, lens);
 
   const auto count = static_cast<Eigen::Index>(samples_.size());
   Eigen::Map<Eigen::VectorXd> r(residuals, count);

@@ -29,10 +29,7 @@ class SharedEdgeCost : public ceres::CostFunction {
  public:
   SharedEdgeCost(std::vector<AlignedSample> samples,
                  const PartedPrior& prior,
-                 const EdgeFrame& frame,
-                 double k2,
-                 int width_px,
-                 int height_px);
+                 const EdgeFrame& frame);
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override;
@@ -41,9 +38,6 @@ class SharedEdgeCost : public ceres::CostFunction {
   std::vector<AlignedSample> samples_;
   const PartedPrior& prior_;
   EdgeFrame frame_;
-  double k2_;
-  int width_px_;
-  int height_px_;
 };
 
 }  // namespace groundglass

@@ -3,23 +3,11 @@
 #pragma once
 
 #include "register/camera_prior.h"
-#include "register/refine.h"
+#include "register/find_solutions.h"
 #include "register/register_photograph.h"
 #include "scene/registration.h"
 
 namespace groundglass {
-
-// One refined start with its score.
-struct Solution {
-  Refinement refinement;
-  AlignmentScore score;
-  double control_point_nats = 0;  // log density of what a person pointed at, 0 without
-
-  // The log densities of the prior and of the control points join the edges' score.
-  double TotalScore() const {
-    return score.nats + control_point_nats - 0.5 * refinement.whitened.squaredNorm();
-  }
-};
 
 // Writes verdict and reasons into a registration whose figures are filled in, except what
 // JudgeChange writes. rival: the best solution elsewhere, if any, and how far away it lies.

@@ -50,25 +50,21 @@ void WriteSolution(const JointSolution& solution,
                    const CameraPrior& prior,
                    const PolygonModel& model,
                    const std::vector<Eigen::Vector3d>& points_in_world,
-                   int width_px,
-                   int height_px,
                    Registration& registration) {
-  const CameraParameters parameters = prior.mean + prior.root * solution.whitened;
-  const double to_photograph = static_cast<double>(registration.width_px) / width_px;
-  const double k2 = registration.measured.k2;
-  const ParameterProjection projection(parameters, k2, width_px, height_px);
-  registration.corrected = TagFromParameters(parameters, registration.measured);
+  const double to_photograph = static_cast<double>(registration.width_px) / prior.width_px;
+  const ParameterProjection projection = prior.ProjectionAt(solution.whitened);
+  registration.corrected =
+      TagFromParameters(prior.ParametersAt(solution.whitened), registration.measured);
   registration.covariance = prior.root * solution.covariance * prior.root.transpose();
   registration.sigmas = registration.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   registration.num_samples = solution.num_matched;
   registration.rms_px = solution.noise_px * to_photograph;
   registration.moved_px =
-      to_photograph * MeanDisplacementPx(points_in_world,
-                                         ParameterProjection(prior.mean, k2, width_px, height_px),
-                                         projection);
+      to_photograph *
+      MeanDisplacementPx(points_in_world, prior.ProjectionAt(CameraParameters::Zero()), projection);
   registration.vertex_sigma_px =
       to_photograph *
-      VertexSigmaPx(model, projection, registration.covariance, width_px, height_px);
+      VertexSigmaPx(model, projection, registration.covariance, prior.width_px, prior.height_px);
 }
 
 }  // namespace groundglass

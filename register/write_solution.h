@@ -19,15 +19,13 @@ double MeanDisplacementPx(const std::vector<Eigen::Vector3d>& points_in_world,
                           const ParameterProjection& other);
 
 // Writes a solution into a registration: the corrected tag, covariance, residuals, how far points
-// that the photograph shows have moved, and how well the model's points are known. solution: found
-// on a picture of width_px x height_px, of which the registration's own size is a multiple; the
-// registration has its sizes and its measured tag.
+// that the photograph shows have moved, and how well the model's points are known. The
+// registration has its sizes, which may be a multiple of those of the prior's picture, and its
+// measured tag.
 void WriteSolution(const JointSolution& solution,
                    const CameraPrior& prior,
                    const PolygonModel& model,
                    const std::vector<Eigen::Vector3d>& points_in_world,
-                   int width_px,
-                   int height_px,
                    Registration& registration);
 
 }  // namespace groundglass

@@ -75,6 +75,11 @@ void BM_EdgeEvidence(benchmark::State& state) {
 }
 BENCHMARK(BM_EdgeEvidence)->Apply(AtAllWidths);
 
+CameraPrior PriorOf(const Slide& slide) {
+  return MakeCameraPrior(
+      slide.tag, slide.grey8.width, slide.grey8.height, slide.model.unit, {}, {});
+}
+
 void BM_SampleVisibleEdges(benchmark::State& state) {
   const Slide& slide = BrickSlide(static_cast<int>(state.range(0)));
   const EdgeModel edge_model(slide.model);
@@ -85,17 +90,12 @@ BENCHMARK(BM_SampleVisibleEdges)->Apply(AtAllWidths);
 
 void BM_FindHypotheses(benchmark::State& state) {
   const Slide& slide = BrickSlide(static_cast<int>(state.range(0)));
-  const int width = slide.grey8.width;
-  const int height = slide.grey8.height;
   const EdgeModel edge_model(slide.model);
   const EdgeEvidence evidence(slide.grey8, {});
-  const CameraPrior prior = MakeCameraPrior(slide.tag, slide.model.unit, {}, {});
-  const std::vector<EdgeSample> samples =
-      SampleVisibleEdges(edge_model, CameraFromTag(slide.tag, width, height), 0.02 * width, 10);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        FindHypotheses(samples, prior, slide.tag, width, height, evidence, {}));
-  }
+  const CameraPrior prior = PriorOf(slide);
+  const std::vector<EdgeSample> samples = SampleVisibleEdges(
+      edge_model, prior.CameraAt(CameraParameters::Zero()), 0.02 * prior.width_px, 10);
+  for (auto _ : state) benchmark::DoNotOptimize(FindHypotheses(samples, prior, evidence, {}));
 }
 BENCHMARK(BM_FindHypotheses)->Apply(AtAllWidths);
 
@@ -103,16 +103,9 @@ void BM_RefineFromTag(benchmark::State& state) {
   const Slide& slide = BrickSlide(static_cast<int>(state.range(0)));
   const EdgeModel edge_model(slide.model);
   const EdgeEvidence evidence(slide.grey8, {});
-  const CameraPrior prior = MakeCameraPrior(slide.tag, slide.model.unit, {}, {});
+  const CameraPrior prior = PriorOf(slide);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(RefineFrom(CameraParameters::Zero(),
-                                        edge_model,
-                                        evidence,
-                                        prior,
-                                        slide.tag,
-                                        slide.grey8.width,
-                                        slide.grey8.height,
-                                        {}));
+    benchmark::DoNotOptimize(RefineFrom(CameraParameters::Zero(), edge_model, evidence, prior, {}));
   }
 }
 BENCHMARK(BM_RefineFromTag)->Apply(AtAllWidths);

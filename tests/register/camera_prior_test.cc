@@ -26,10 +26,10 @@ CameraCovariance CovarianceOf(const CameraPrior& prior) {
 
 TEST(CameraPrior, TheLargerOfLengthAndShareOfDistanceCounts) {
   ViewTag tag = LevelTag();
-  const CameraPrior far = MakeCameraPrior(tag, LengthUnit::kFoot, {}, {});
+  const CameraPrior far = MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, {});
   EXPECT_NEAR(far.sigmas[0], 0.5, 1e-9);  // 0.5 % of 100 ft
   tag.lookat_in_site = {0, 90, 5};
-  const CameraPrior near = MakeCameraPrior(tag, LengthUnit::kFoot, {}, {});
+  const CameraPrior near = MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, {});
   EXPECT_NEAR(near.sigmas[0], 0.076 / kMetresPerFoot, 1e-9);
 }
 
@@ -37,7 +37,7 @@ TEST(CameraPrior, TheTagsOwnSigmasWin) {
   ViewTag tag = LevelTag();
   tag.sigmas.position = 2;
   tag.sigmas.roll_deg = 0.3;
-  const CameraPrior prior = MakeCameraPrior(tag, LengthUnit::kFoot, {}, {});
+  const CameraPrior prior = MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, {});
   EXPECT_NEAR(prior.sigmas[0], 2, 1e-9);
   EXPECT_NEAR(prior.sigmas[5], 0.3, 1e-9);
 }
@@ -46,7 +46,7 @@ TEST(CameraPrior, TheTagsOwnSigmasWin) {
 // exactly the prior's covariance.
 TEST(CameraPrior, CovarianceIsThatOfMeasuredPoints) {
   const ViewTag tag = LevelTag();
-  const CameraPrior prior = MakeCameraPrior(tag, LengthUnit::kMetre, {}, {});
+  const CameraPrior prior = MakeCameraPrior(tag, 600, 400, LengthUnit::kMetre, {}, {});
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   CameraCovariance sum = CameraCovariance::Zero();
@@ -73,7 +73,7 @@ TEST(CameraPrior, CovarianceIsThatOfMeasuredPoints) {
 TEST(CameraPrior, LockedParametersDoNotMove) {
   PriorOptions options;
   options.lock = {"v", "shift"};
-  const CameraPrior prior = MakeCameraPrior(LevelTag(), LengthUnit::kFoot, {}, options);
+  const CameraPrior prior = MakeCameraPrior(LevelTag(), 600, 400, LengthUnit::kFoot, {}, options);
   for (const int locked : {6, 8, 9}) {
     EXPECT_EQ(prior.sigmas[locked], 0);
     EXPECT_LT(prior.root.row(locked).norm(), 1e-12);
@@ -86,13 +86,14 @@ TEST(CameraPrior, FreeParametersAreLookedForWhateverTheTagOrTheLensSays) {
   tag.sigmas.roll_deg = 0.01;
   PriorOptions options;
   options.free = {"roll", "k1"};
-  EXPECT_DOUBLE_EQ(MakeCameraPrior(tag, LengthUnit::kFoot, {}, {}).sigmas[5], 0.01);
-  EXPECT_DOUBLE_EQ(MakeCameraPrior(tag, LengthUnit::kFoot, {}, options).sigmas[5], 1.5);
+  EXPECT_DOUBLE_EQ(MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, {}).sigmas[5], 0.01);
+  EXPECT_DOUBLE_EQ(MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, options).sigmas[5], 1.5);
   Lens lens;
   lens.view_angle_deg = 53.2;
   lens.aspect = 1.5;
-  EXPECT_EQ(MakeCameraPrior(tag, LengthUnit::kFoot, lens, {}).sigmas[10], 0);
-  EXPECT_DOUBLE_EQ(MakeCameraPrior(tag, LengthUnit::kFoot, lens, options).sigmas[10], 0.05);
+  EXPECT_EQ(MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, lens, {}).sigmas[10], 0);
+  EXPECT_DOUBLE_EQ(MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, lens, options).sigmas[10],
+                   0.05);
 }
 
 TEST(CameraPrior, AParameterCannotBeBothLockedAndFree) {
@@ -117,12 +118,12 @@ TEST(CameraPrior, ALensFileReplacesTheLensInTheTag) {
   lens.sigma_k1 = 0.001;
   PriorOptions digital;
   digital.digital = true;
-  const CameraPrior prior = MakeCameraPrior(LevelTag(), LengthUnit::kFoot, lens, digital);
+  const CameraPrior prior = MakeCameraPrior(LevelTag(), 600, 400, LengthUnit::kFoot, lens, digital);
   EXPECT_DOUBLE_EQ(prior.mean[6], 53.2);
   EXPECT_NEAR(prior.sigmas[6], 0.02, 1e-12);
   EXPECT_NEAR(prior.sigmas[10], 0.001, 1e-12);
   // A slide's own scale comes on top: 1 % of the image is 1 % of tan(v / 2).
-  const CameraPrior slide = MakeCameraPrior(LevelTag(), LengthUnit::kFoot, lens, {});
+  const CameraPrior slide = MakeCameraPrior(LevelTag(), 600, 400, LengthUnit::kFoot, lens, {});
   const double wider =
       2 * DegreesFromRadians(std::atan(1.01 * std::tan(RadiansFromDegrees(53.2) / 2))) - 53.2;
   EXPECT_NEAR(slide.sigmas[6], std::hypot(0.02, wider), 0.01);

@@ -102,9 +102,11 @@ TEST(ControlPoints, FaultsNameFileAndLine) {
 }
 
 TEST(ControlPointCost, DerivativesAreThoseOfTheResiduals) {
-  const CameraPrior prior = MakeCameraPrior(TrueTag(), LengthUnit::kFoot, {}, {});
+  ViewTag tag = TrueTag();
+  tag.k2 = 0.01;
+  const CameraPrior prior = MakeCameraPrior(tag, kWidth, kHeight, LengthUnit::kFoot, {}, {});
   const std::vector<ControlPoint> points = PointAtHouse(kCorners, 2);
-  const ControlPointCost cost(points, prior, 0.01, kWidth, kHeight);
+  const ControlPointCost cost(points, prior);
   const int count = cost.num_residuals();
   ASSERT_EQ(count, 8);
   CameraParameters whitened = CameraParameters::Constant(0.3);
@@ -130,11 +132,11 @@ TEST(ControlPointCost, DerivativesAreThoseOfTheResiduals) {
 }
 
 TEST(ControlPointCost, ResidualsAreInSigmas) {
-  const CameraPrior prior = MakeCameraPrior(TrueTag(), LengthUnit::kFoot, {}, {});
+  const CameraPrior prior = MakeCameraPrior(TrueTag(), kWidth, kHeight, LengthUnit::kFoot, {}, {});
   std::vector<ControlPoint> points = PointAtHouse({kCorners[0]}, 2);
   points[0].image_px =
       *Project(CameraFromTag(TrueTag(), kWidth, kHeight), kCorners[0]) - Eigen::Vector2d(6, -3);
-  const ControlPointCost cost(points, prior, 0, kWidth, kHeight);
+  const ControlPointCost cost(points, prior);
   const CameraParameters whitened = CameraParameters::Zero();
   const double* block = whitened.data();
   Eigen::Vector2d residuals;
@@ -144,17 +146,17 @@ TEST(ControlPointCost, ResidualsAreInSigmas) {
 }
 
 TEST(PointedPrior, WithoutPointsItIsTheTags) {
-  const CameraPrior prior = MakeCameraPrior(TrueTag(), LengthUnit::kFoot, {}, {});
-  const PointedPrior pointed = NarrowByPoints({}, prior, TrueTag(), kWidth, kHeight);
+  const CameraPrior prior = MakeCameraPrior(TrueTag(), kWidth, kHeight, LengthUnit::kFoot, {}, {});
+  const PointedPrior pointed = NarrowByPoints({}, prior);
   EXPECT_EQ(pointed.prior.mean, prior.mean);
   EXPECT_EQ(pointed.prior.root, prior.root);
   EXPECT_EQ(pointed.map, CameraCovariance::Identity());
 }
 
 TEST(PointedPrior, BothWaysOfSayingItAgree) {
-  const CameraPrior prior = MakeCameraPrior(RememberedTag(), LengthUnit::kFoot, {}, {});
-  const PointedPrior pointed =
-      NarrowByPoints(PointAtHouse(kCorners, 2), prior, RememberedTag(), kWidth, kHeight);
+  const CameraPrior prior =
+      MakeCameraPrior(RememberedTag(), kWidth, kHeight, LengthUnit::kFoot, {}, {});
+  const PointedPrior pointed = NarrowByPoints(PointAtHouse(kCorners, 2), prior);
   const CameraParameters v = CameraParameters::LinSpaced(-1, 1);
   EXPECT_LT((pointed.prior.mean + pointed.prior.root * v -
              (prior.mean + prior.root * (pointed.offset + pointed.map * v)))

@@ -18,8 +18,8 @@ struct Fixture {
     tag.position_in_site = {30, 60, 5};
     tag.lookat_in_site = {20, 0, 10};
     tag.view_angle_deg = 54;
-    prior = MakeCameraPrior(tag, LengthUnit::kFoot, {}, {});
-    const ParameterProjection projection(prior.mean, 0, 600, 400);
+    prior = MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, {});
+    const ParameterProjection projection = prior.ProjectionAt(CameraParameters::Zero());
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> unit(-1, 1);
     for (int i = 0; i < 24; ++i) {
@@ -36,7 +36,7 @@ struct Fixture {
   }
 
   Eigen::VectorXd Residuals(const CameraParameters& whitened) const {
-    const EdgeAlignmentCost cost(samples, prior, 0, 600, 400);
+    const EdgeAlignmentCost cost(samples, prior);
     Eigen::VectorXd residuals(samples.size());
     const double* block = whitened.data();
     EXPECT_TRUE(cost.Evaluate(&block, residuals.data(), nullptr));
@@ -67,7 +67,7 @@ TEST(EdgeAlignmentCost, JacobianMatchesFiniteDifferences) {
   const Fixture fixture;
   CameraParameters at;
   at << 0.1, -0.2, 0.3, 0.1, 0.2, -0.1, 0.3, 0.2, -0.2, 0.1, 0.4;
-  const EdgeAlignmentCost cost(fixture.samples, fixture.prior, 0, 600, 400);
+  const EdgeAlignmentCost cost(fixture.samples, fixture.prior);
   const auto count = static_cast<Eigen::Index>(fixture.samples.size());
   Eigen::Matrix<double, Eigen::Dynamic, kNumCameraParameters, Eigen::RowMajor> jacobian(
       count, kNumCameraParameters);
