@@ -101,7 +101,8 @@ std::string FormatCoverageSection(const Json& coverage, const std::string& unit)
   } else {
     section += Plural(missing.size(), "face") + (missing.size() == 1 ? " is" : " are") +
                " seen by less than half: a photograph from the place named would show what is "
-               "missing.</p>\n" +
+               "missing; where none is named, none was found from which nothing of the model "
+               "stands before it.</p>\n" +
                FormatFaceTable(missing, unit, true);
   }
   return section + "<details><summary>All faces</summary>\n" + FormatFaceTable(faces, unit, false) +

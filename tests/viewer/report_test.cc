@@ -82,7 +82,10 @@ class ReportOf : public testing::Test {
                        {"photograph": "s3", "texels": 3, "footprint": 0.09}]},
           {"face": 2, "name": "north", "area": 8, "covered_area": 0, "texels": 100,
            "covered_texels": 0, "texel_size": 0.05, "sources": [],
-           "missing": {"area": 8, "centre": [1, 2, 3], "stand_at": [12.3, -4.1, 5]}}]})");
+           "missing": {"area": 8, "centre": [1, 2, 3], "stand_at": [12.3, -4.1, 5]}},
+          {"face": 3, "name": "yard", "area": 8, "covered_area": 0, "texels": 100,
+           "covered_texels": 0, "texel_size": 0.05, "sources": [],
+           "missing": {"area": 8, "centre": [1, 2, 3]}}]})");
   }
 
   const TemporaryFolder temporary_;
@@ -128,8 +131,9 @@ TEST_F(ReportOf, PointsOutFacesThatNobodySees) {
   WriteCoverage();
   const std::string html = FormatReport(folder_);
   EXPECT_THAT(html, HasSubstr("62 %"));
-  EXPECT_THAT(html, HasSubstr("1 face is seen by less than half"));
+  EXPECT_THAT(html, HasSubstr("2 faces are seen by less than half"));
   EXPECT_THAT(html, HasSubstr("<td>12, \u22124, 5</td>"));  // where to stand
+  EXPECT_THAT(html, HasSubstr("where none is named, none was found"));
   EXPECT_THAT(html,
               HasSubstr("s1 <span class=\"soft\">97 %</span> <span class=\"soft\">and 1 more"));
 }
