@@ -11,6 +11,7 @@
 #include "register/weighted_median.h"
 
 #include <ceres/ceres.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -179,7 +180,7 @@ class JointSolver {
   }
   std::vector<double*> Blocks();
   Eigen::MatrixXd SharedPushes(const NormalEquations& equations) const;
-  Eigen::SparseMatrix<double> FamilyPushes(const NormalEquations& equations) const;
+  Eigen::MatrixXd MovesWithoutFamilies(const NormalEquations& equations) const;
 
   const EdgeModel& edge_model_;
   const std::vector<AlignedPhotograph>& photographs_;
@@ -295,42 +296,30 @@ Eigen::MatrixXd JointSolver::SharedPushes(const NormalEquations& equations) cons
   return pushes;
 }
 
-// What is left, one column for each family of edges in each photograph, and for each family's
-// displacements: where edges of a family err together, what is left of them does not average out
-// (Liang and Zeger, Biometrika 1986).
-Eigen::SparseMatrix<double> JointSolver::FamilyPushes(const NormalEquations& equations) const {
+// Where edges of a family err together, what is left of them does not average out: how far the
+// solution would move without each family in each photograph (the jackknife by clusters, CR3: Bell
+// and McCaffrey, Survey Methodology 2002). What is left alone is too little where a family decides
+// much: the camera has followed it.
+Eigen::MatrixXd JointSolver::MovesWithoutFamilies(const NormalEquations& equations) const {
   const std::vector<int> families = FindEdgeFamilies(edge_model_.model, edge_model_.edges);
-  constexpr int kAllPhotographs = -1;
-  std::map<std::pair<int, int>, int> column_of_family;  // of photograph and family
-  std::vector<Eigen::Triplet<double>> pushes;
-  const auto add = [&](int photograph, int edge, const NormalEquations::Rows& rows) {
-    const int next = static_cast<int>(column_of_family.size());
-    const int column =
-        column_of_family.try_emplace({photograph, families[edge]}, next).first->second;
-    for (Eigen::Index row = rows.first; row < rows.first + rows.size; ++row) {
-      pushes.emplace_back(static_cast<int>(row), column, equations.Residuals()[row]);
-    }
-  };
+  std::map<std::pair<size_t, int>, std::vector<NormalEquations::Rows>> rows_of_family;
   for (size_t i = 0; i < runs_.size(); ++i) {
-    add(static_cast<int>(runs_[i].photograph),
-        runs_[i].edge,
+    rows_of_family[{runs_[i].photograph, families[runs_[i].edge]}].push_back(
         equations.RowsOfCosts().at(edge_costs_[i]));
   }
-  for (size_t edge = 0; edge < edges_.size(); ++edge) {
-    for (const ceres::ResidualBlockId cost : edges_[edge].prior_costs) {
-      add(kAllPhotographs, static_cast<int>(edge), equations.RowsOfCosts().at(cost));
-    }
-  }
-  Eigen::SparseMatrix<double> columns(equations.Residuals().size(),
-                                      static_cast<Eigen::Index>(column_of_family.size()));
-  columns.setFromTriplets(pushes.begin(), pushes.end());
-  return columns;
+  std::vector<const std::vector<NormalEquations::Rows>*> left_out;
+  for (const auto& [family, rows] : rows_of_family) left_out.push_back(&rows);
+  Eigen::MatrixXd moves(equations.NumColumns(), static_cast<Eigen::Index>(left_out.size()));
+  tbb::parallel_for(size_t{0}, left_out.size(), [&](size_t i) {
+    moves.col(static_cast<Eigen::Index>(i)) = equations.MoveWithout(*left_out[i]);
+  });
+  return moves;
 }
 
 JointRefinement JointSolver::Result() {
   const NormalEquations equations(*problem_, Blocks());
   const Eigen::MatrixXd by_shared = equations.Answer(SharedPushes(equations).sparseView());
-  const Eigen::MatrixXd by_family = equations.Answer(FamilyPushes(equations));
+  const Eigen::MatrixXd by_family = MovesWithoutFamilies(equations);
 
   JointRefinement joint;
   constexpr int kNumParts = kNumCameraParameters + kNumLensParameters;

@@ -76,7 +76,7 @@ struct JointRefinement {
 // Solves all photographs together: cameras with their priors, the lens that photographs share, and
 // where each model edge really is, so that a cornice that the model has a hand too low drags no
 // camera. Starts are the photographs' own solutions. lenses: for each photograph, the number of its
-// lens, from 0. Deterministic; one thread.
+// lens, from 0. Deterministic.
 JointRefinement RefineTogether(const EdgeModel& edge_model,
                                const std::vector<AlignedPhotograph>& photographs,
                                const std::vector<int>& lenses,

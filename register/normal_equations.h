@@ -29,14 +29,20 @@ class NormalEquations {
   Eigen::Index NumColumns() const { return jacobian_.cols(); }
   // How far the solution moves for each of these columns, taken off the residuals.
   Eigen::MatrixXd Answer(const Eigen::SparseMatrix<double>& pushes) const;
+  // How far the solution would move without these residuals: the jackknife, to first order. What
+  // is left must determine all parameters.
+  Eigen::VectorXd MoveWithout(const std::vector<Rows>& left_out) const;
   // The inverse normal equations' columns first to first + size - 1.
   Eigen::MatrixXd CovarianceColumns(Eigen::Index first, Eigen::Index size) const;
 
  private:
+  using RowMajorMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
   std::map<ceres::ResidualBlockId, Rows> rows_of_costs_;
   std::map<const double*, Eigen::Index> column_of_block_;
   Eigen::VectorXd residuals_;
-  Eigen::SparseMatrix<double> jacobian_;
+  RowMajorMatrix jacobian_;
+  Eigen::SparseMatrix<double> normal_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> inverse_;
 };
 

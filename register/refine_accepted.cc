@@ -48,7 +48,6 @@ std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
   for (size_t i = 0; i < photographs.size(); ++i) {
     const AlignedPhotograph& photograph = photographs[i];
     Registration& registration = together[i]->registration;
-    together[i]->is_refined_together = true;
     std::vector<Eigen::Vector3d> points_in_world;
     for (const CandidateSample& found : photograph.found) {
       points_in_world.push_back(found.sample.point_in_world);

@@ -121,9 +121,7 @@ PhotographAlignment AlignPhotograph(const std::string& name,
 void FinishVerdict(const RegisterOptions& options, PhotographAlignment& alignment) {
   Registration& registration = alignment.registration;
   if (registration.verdict != Verdict::kRejected) {
-    JudgeCertainty(alignment.is_refined_together ? options.max_vertex_sigma_px
-                                                 : options.max_lone_vertex_sigma_px,
-                   registration);
+    JudgeCertainty(options.max_vertex_sigma_px, registration);
   }
   OverruleVerdict(options.overrule, registration);
   if (registration.verdict == Verdict::kRejected) registration.corrected = registration.measured;

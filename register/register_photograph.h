@@ -47,10 +47,8 @@ struct RegisterOptions {
   // degrees of freedom; 99.9 % lie below).
   double max_prior_chi_squared = 31.3;
 
-  // Nor may the model's points be known worse than this, px at a width of 640. A photograph that
-  // stays alone cannot tell how good the model is, and what it claims assumes a rough one.
-  double max_vertex_sigma_px = 1.5;
-  double max_lone_vertex_sigma_px = 2;
+  // Nor may the model's points be known worse than this, px at a width of 640.
+  double max_vertex_sigma_px = 2;
 
   // Places that a person has recognised, of all photographs, in pixels of theirs. None may end
   // further than this from where the camera sees it, in the point's sigmas.
@@ -67,8 +65,7 @@ struct RegisterOptions {
 // verdict does not heed yet how certain the camera is (FinishVerdict).
 struct PhotographAlignment {
   Registration registration;
-  AlignedPhotograph aligned;         // empty unless the verdict is `accepted`
-  bool is_refined_together = false;  // with others (RefineAccepted)
+  AlignedPhotograph aligned;  // empty unless the verdict is `accepted`
 };
 
 // Corrects one photograph's tag against the model's edges.

@@ -51,6 +51,33 @@ TEST(NormalEquations, KnowWhatMovesTheSolutionAndHowFar) {
   EXPECT_NEAR(covariance(0, 1), -0.25, 1e-12);
 }
 
+TEST(NormalEquations, MoveWithoutIsWhatSolvingWithoutGives) {
+  const auto solved = [](bool with_third) {
+    Eigen::Matrix<double, 4, 2> a;
+    Eigen::Vector4d c;
+    a << 2, 0, 1, 1, 1, -3, 0.5, 0.2;
+    c << 4, 3, 2, 7;
+    if (!with_third) {
+      a.row(2).setZero();
+      c[2] = 0;
+    }
+    return Eigen::Vector2d((a.transpose() * a).ldlt().solve(a.transpose() * c));
+  };
+  const Eigen::Vector2d solution = solved(true);
+  double x = solution[0], y = solution[1];
+  ceres::Problem problem;
+  problem.AddResidualBlock(new Line(2, 0, 4), nullptr, &x, &y);
+  problem.AddResidualBlock(new Line(1, 1, 3), nullptr, &x, &y);
+  const auto third = problem.AddResidualBlock(new Line(1, -3, 2), nullptr, &x, &y);
+  problem.AddResidualBlock(new Line(0.5, 0.2, 7), nullptr, &x, &y);
+  const NormalEquations equations(problem, {&x, &y});
+  const Eigen::VectorXd move = equations.MoveWithout({equations.RowsOfCosts().at(third)});
+  const Eigen::Vector2d expected = solved(false) - solution;
+  EXPECT_GT(expected.norm(), 0.1);
+  EXPECT_NEAR(move[0], expected[0], 1e-5);
+  EXPECT_NEAR(move[1], expected[1], 1e-5);
+}
+
 TEST(NormalEquations, RefuseWhatIsNotDetermined) {
   double x = 0, y = 0;
   ceres::Problem problem;
