@@ -20,7 +20,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <numeric>
@@ -46,14 +48,35 @@ class Steps {
   std::mutex mutex_;
 };
 
-// Photographs and charts one after the other where memory is short; there is work for all cores in
-// each of them.
-template <typename Work>
-void ForEach(int count, const BakeOptions& options, const Work& work) {
-  if (options.max_memory_mb == 0) {
+// No more than so many at the same time; there is work for all cores in each of them.
+void ForEach(int count, int num_at_once, const std::function<void(int)>& work) {
+  if (num_at_once >= count) {
     tbb::parallel_for(0, count, work);
-  } else {
-    for (int i = 0; i < count; ++i) work(i);
+    return;
+  }
+  std::atomic<int> next = 0;
+  tbb::parallel_for(0, num_at_once, [&](int) {
+    for (int i = next++; i < count; i = next++) work(i);
+  });
+}
+
+// Charts, side by side as far as `max_bytes` go.
+void ForEachChart(const std::vector<Chart>& charts,
+                  const std::vector<ChartCells>& cells,
+                  const BakeOptions& options,
+                  size_t max_bytes,
+                  const std::function<void(int)>& work) {
+  const int count = static_cast<int>(charts.size());
+  for (int first = 0; first < count;) {
+    int end = first;
+    for (size_t num_bytes = 0; end < count; ++end) {
+      if (charts[end].page >= 0) {
+        num_bytes += ChartBytes(charts[end], cells[end].photos.size(), options);
+      }
+      if (num_bytes > max_bytes && end > first) break;
+    }
+    tbb::parallel_for(first, end, work);
+    first = end;
   }
 }
 
@@ -83,13 +106,15 @@ std::vector<PreparedPhoto> PreparePhotos(const PolygonModel& model,
                                          const EarlierModel* earlier,
                                          const std::vector<int>& chart_of_face,
                                          const BakeOptions& options,
+                                         const MaskDetail& detail,
+                                         int num_at_once,
                                          PhotoCache& cache,
-                                         Steps& steps) {
+                                         Steps* steps) {
   std::vector<std::optional<PreparedPhoto>> prepared(photographs.size());
-  ForEach(static_cast<int>(photographs.size()), options, [&](int i) {
+  ForEach(static_cast<int>(photographs.size()), num_at_once, [&](int i) {
     prepared[i].emplace(
-        photographs[i], i, model, visibility, earlier, chart_of_face, options, cache);
-    steps.Tell("read " + photographs[i].name);
+        photographs[i], i, model, visibility, earlier, chart_of_face, options, detail, cache);
+    if (steps) steps->Tell("read " + photographs[i].name);
   });
   std::vector<PreparedPhoto> photos;
   for (std::optional<PreparedPhoto>& photo : prepared) photos.push_back(std::move(*photo));
@@ -248,29 +273,42 @@ BakeResult BakeTextures(const PolygonModel& model,
   const int num_charts = static_cast<int>(charts.size());
   Steps steps(progress, static_cast<int>(sorted.size()) + 1 + num_charts);
   const bool is_limited = options.max_memory_mb > 0;
-  PhotoCache cache(
-      ImageFiles(sorted), is_limited ? 0 : std::numeric_limits<size_t>::max(), options.bits);
-  const std::vector<PreparedPhoto> photos = PreparePhotos(model,
-                                                          sorted,
-                                                          visibility,
-                                                          earlier ? &*earlier : nullptr,
-                                                          chart_of_face,
-                                                          options,
-                                                          cache,
-                                                          steps);
+  constexpr size_t kNoLimit = std::numeric_limits<size_t>::max();
+  PhotoCache cache(ImageFiles(sorted), is_limited ? 0 : kNoLimit, options.bits);
+  const auto prepare = [&](const MaskDetail& detail, int num_at_once, Steps* told) {
+    return PreparePhotos(model,
+                         sorted,
+                         visibility,
+                         earlier ? &*earlier : nullptr,
+                         chart_of_face,
+                         options,
+                         detail,
+                         num_at_once,
+                         cache,
+                         told);
+  };
+  const int num_photos = static_cast<int>(sorted.size());
+  MemoryPlan plan;
+  plan.num_at_once = num_photos;
+  plan.chart_bytes = kNoLimit;
+  if (is_limited) {
+    const std::vector<PreparedPhoto> survey =
+        prepare({.num_halvings = kSurveyHalvings, .is_survey = true}, num_photos, nullptr);
+    ChooseTexelSizes(model, survey, options, charts);
+    plan = PlanMemory(charts, survey, options);
+    cache.SetMaxBytes(plan.photo_bytes);
+    cache.SetNumDropped(plan.num_dropped);
+  }
+  const std::vector<PreparedPhoto> photos =
+      prepare({.num_halvings = plan.mask_halvings}, plan.num_at_once, &steps);
   ChooseTexelSizes(model, photos, options, charts);
   if (is_limited) {
-    const MemoryPlan plan = PlanMemory(charts,
-                                       photos,
-                                       static_cast<size_t>(options.max_memory_mb) * 1000000,
-                                       options.bits,
-                                       options.texel_size == 0);
+    plan = RevisePlan(plan, charts, photos, options);
     result.texel_scale = plan.texel_scale;
     for (Chart& chart : charts) {
       if (chart.texel_size > 0) chart.SetTexelSize(chart.texel_size * plan.texel_scale);
     }
     cache.SetMaxBytes(plan.photo_bytes);
-    if (plan.num_dropped > 0) cache.DropLevels(plan.num_dropped);
   }
   const std::vector<PageSize> page_sizes =
       PackCharts(charts, options.gutter_texels, options.max_page_texels);
@@ -288,7 +326,7 @@ BakeResult BakeTextures(const PolygonModel& model,
   // Fill the pages.
   result.model = MakeTexturedModel(model, charts, chart_of_face, page_sizes, options.bits);
   result.coverage = StartCoverage(model, charts, chart_of_face);
-  ForEach(num_charts, options, [&](int i) {
+  ForEachChart(charts, cells, options, plan.chart_bytes, [&](int i) {
     const Chart& chart = charts[i];
     if (chart.page >= 0) {
       const ChartTexels texels(model, chart);

@@ -123,13 +123,14 @@ Image8 ComputeBorderDistance(const PolygonModel& model,
                              const Camera& camera,
                              const Image16& labels,
                              const std::vector<int>& chart_of_face,
-                             const Image8& ignored) {
+                             const Image8& ignored,
+                             double crease_bonus_px) {
   const int width = labels.width;
   const int height = labels.height;
   const FaceDepths depths(model, camera);
   // Eighths of a pixel; a pixel beside a border has its centre half a pixel from it.
   constexpr uint8_t kBesideJump = kBorderStepsPerPx / 2;
-  constexpr uint8_t kBesideCrease = (0.5 + kCreaseBonusPx) * kBorderStepsPerPx;
+  const auto beside_crease = static_cast<uint8_t>((0.5 + crease_bonus_px) * kBorderStepsPerPx);
   Image8 border(width, height, 1, 255);
   const auto compare = [&](int x, int y, int other_x, int other_y) {
     const uint16_t first = *labels.At(x, y);
@@ -149,7 +150,7 @@ Image8 ComputeBorderDistance(const PolygonModel& model,
                            std::abs(depths.At(second - 1, ray) - depths.At(second - 1, other));
       is_crease = std::abs(a - b) <= slope + 0.001 * std::abs(a);
     }
-    const uint8_t steps = is_crease ? kBesideCrease : kBesideJump;
+    const uint8_t steps = is_crease ? beside_crease : kBesideJump;
     *border.At(x, y) = std::min(*border.At(x, y), steps);
     *border.At(other_x, other_y) = std::min(*border.At(other_x, other_y), steps);
   };

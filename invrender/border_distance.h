@@ -19,11 +19,14 @@ constexpr double kBorderStepsPerPx = 8;
 // For each pixel the distance (eighths of a pixel, at most 255) from its centre to the nearest
 // border of the face mask where another chart begins, and to the nearest ignored pixel (non-zero
 // in `ignored`, which may be empty); ignored pixels and those without a face are 0.
+// crease_bonus_px: kCreaseBonusPx in the mask's pixels, where these are longer than the
+// photograph's.
 Image8 ComputeBorderDistance(const PolygonModel& model,
                              const Camera& camera,
                              const Image16& labels,
                              const std::vector<int>& chart_of_face,
-                             const Image8& ignored);
+                             const Image8& ignored,
+                             double crease_bonus_px = kCreaseBonusPx);
 
 // Pixels (255) that belong to the black mount of a slide: dark, connected to a side of the frame
 // that is dark along most of its length, and no farther in than a tenth of the frame. Widened by

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "invrender/colour.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,44 +39,82 @@ int StepThrough(const ChartCells& cells, int enough) {
 
 // The cells of one chart that two photographs both show.
 struct Pair {
+  const ChartCells* chart = nullptr;
+  uint32_t first_k = 0;  // in chart->photos
+  uint32_t second_k = 0;
   int first = 0;  // photographs
   int second = 0;
-  std::vector<std::pair<const CellView*, const CellView*>> views;
+  std::vector<uint32_t> cells;
   Eigen::Array3f difference = Eigen::Array3f::Zero();  // median of log radiance, first - second
+
+  // The two views of one of the cells.
+  std::pair<const CellView*, const CellView*> Views(size_t i) const {
+    const CellView* views = chart->ViewsOf(static_cast<int>(cells[i]));
+    return {views + first_k, views + second_k};
+  }
 };
 
+// Below this many shared cells a pair says nothing.
+constexpr int kFewestShared = 6;
+constexpr int kEnoughForPairs = 20000;  // cells of a chart
+
+// Calls work(cell, k of the photographs that show it well) for the cells of a chart that pairs are
+// sought in.
+template <typename Work>
+void ForEachUsable(const ChartCells& chart, const Work& work) {
+  if (chart.NumCells() < kFewestShared) return;
+  std::vector<size_t> usable;
+  for (int cell = 0; cell < chart.NumCells(); cell += StepThrough(chart, kEnoughForPairs)) {
+    const CellView* views = chart.ViewsOf(cell);
+    usable.clear();
+    for (size_t k = 0; k < chart.photos.size(); ++k) {
+      if (views[k].is_usable) usable.push_back(k);
+    }
+    work(cell, usable);
+  }
+}
+
 std::vector<Pair> FindPairs(const std::vector<ChartCells>& cells) {
-  constexpr size_t kFewest = 6;
   constexpr size_t kEnough = 600;
-  constexpr int kEnoughCells = 20000;
+  // Hundreds of photographs of the same walls have more pairs than memory holds, and than settle
+  // the gains: then every so manieth.
+  constexpr size_t kMostShared = 12000000;
+  size_t num_shared = 0;
+  for (const ChartCells& chart : cells) {
+    ForEachUsable(chart, [&](int, const std::vector<size_t>& usable) {
+      num_shared += usable.size() * (usable.size() - 1) / 2;
+    });
+  }
+  const size_t stride = 1 + num_shared / kMostShared;
   std::vector<Pair> pairs;
   for (const ChartCells& chart : cells) {
+    if (chart.NumCells() < kFewestShared) continue;
     const size_t num_photos = chart.photos.size();
-    std::vector<std::vector<int>> shared(num_photos * num_photos);  // cells
-    std::vector<size_t> usable;
-    for (int cell = 0; cell < chart.NumCells(); cell += StepThrough(chart, kEnoughCells)) {
-      const CellView* views = chart.ViewsOf(cell);
-      usable.clear();
-      for (size_t k = 0; k < num_photos; ++k) {
-        if (views[k].is_usable) usable.push_back(k);
-      }
+    const auto is_wanted = [&](size_t a, size_t b) {
+      return b == a + 1 || (a * 7919 + b * 104729) % stride == 0;
+    };
+    std::vector<std::vector<uint32_t>> shared(num_photos * num_photos);  // cells
+    ForEachUsable(chart, [&](int cell, const std::vector<size_t>& usable) {
       for (size_t i = 0; i < usable.size(); ++i) {
         for (size_t j = i + 1; j < usable.size(); ++j) {
-          shared[usable[i] * num_photos + usable[j]].push_back(cell);
+          if (!is_wanted(usable[i], usable[j])) continue;
+          shared[usable[i] * num_photos + usable[j]].push_back(static_cast<uint32_t>(cell));
         }
       }
-    }
+    });
     for (size_t a = 0; a < num_photos; ++a) {
       for (size_t b = a + 1; b < num_photos; ++b) {
-        const std::vector<int>& both = shared[a * num_photos + b];
-        if (both.size() < kFewest) continue;
-        Pair& pair =
-            pairs.emplace_back(Pair{chart.photos[a], chart.photos[b], {}, Eigen::Array3f::Zero()});
+        std::vector<uint32_t>& both = shared[a * num_photos + b];
+        if (both.size() < kFewestShared) continue;
+        Pair& pair = pairs.emplace_back();
+        pair.chart = &chart;
+        pair.first_k = static_cast<uint32_t>(a);
+        pair.second_k = static_cast<uint32_t>(b);
+        pair.first = chart.photos[a];
+        pair.second = chart.photos[b];
         const size_t count = std::min(both.size(), kEnough);
-        for (size_t i = 0; i < count; ++i) {
-          const CellView* views = chart.ViewsOf(both[i * both.size() / count]);
-          pair.views.emplace_back(&views[a], &views[b]);
-        }
+        pair.cells.reserve(count);
+        for (size_t i = 0; i < count; ++i) pair.cells.push_back(both[i * both.size() / count]);
       }
     }
   }
@@ -95,26 +135,26 @@ void SolveVignetting(const std::vector<Pair>& pairs,
     std::vector<float> residuals;
     for (const Pair& pair : pairs) {
       const auto value = [&](size_t i) {
-        const auto& [a, b] = pair.views[i];
+        const auto [a, b] = pair.Views(i);
         return a->log_radiance[channel] - b->log_radiance[channel];
       };
       const auto residual = [&](size_t i) {
-        const auto& [a, b] = pair.views[i];
+        const auto [a, b] = pair.Views(i);
         return static_cast<float>(value(i) - solution[pair.first] * a->radius_squared +
                                   solution[pair.second] * b->radius_squared);
       };
       residuals.clear();
-      for (size_t i = 0; i < pair.views.size(); ++i) residuals.push_back(residual(i));
+      for (size_t i = 0; i < pair.cells.size(); ++i) residuals.push_back(residual(i));
       const float middle = Median(residuals);
       // Weighted means, to eliminate the chart's own difference.
       double sum_weight = 0;
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
       Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-      for (size_t i = 0; i < pair.views.size(); ++i) {
+      for (size_t i = 0; i < pair.cells.size(); ++i) {
         const double e = (residual(i) - middle) / kScale;
         const double weight = 1 / ((1 + e * e) * (1 + e * e));
-        const Eigen::Vector3d row(
-            pair.views[i].first->radius_squared, -pair.views[i].second->radius_squared, value(i));
+        const auto [first, second] = pair.Views(i);
+        const Eigen::Vector3d row(first->radius_squared, -second->radius_squared, value(i));
         sum_weight += weight;
         mean += weight * row;
         scatter += weight * row * row.transpose();
@@ -149,7 +189,8 @@ void SolveGains(std::vector<Pair>& pairs, int channel, std::vector<ColourModel::
   std::vector<float> differences;
   for (Pair& pair : pairs) {
     differences.clear();
-    for (const auto& [a, b] : pair.views) {
+    for (size_t i = 0; i < pair.cells.size(); ++i) {
+      const auto [a, b] = pair.Views(i);
       differences.push_back(a->log_radiance[channel] - b->log_radiance[channel] -
                             photos[pair.first].vignetting[channel] * a->radius_squared +
                             photos[pair.second].vignetting[channel] * b->radius_squared);
@@ -163,7 +204,7 @@ void SolveGains(std::vector<Pair>& pairs, int channel, std::vector<ColourModel::
     for (const Pair& pair : pairs) {
       const double value = pair.difference[channel];
       const double e = (value - solution[pair.first] + solution[pair.second]) / scale;
-      const double count = static_cast<double>(pair.views.size());
+      const double count = static_cast<double>(pair.cells.size());
       const double weight = count / (count + kManyCells) / (1 + e * e);
       normal(pair.first, pair.first) += weight;
       normal(pair.second, pair.second) += weight;
@@ -185,7 +226,7 @@ void SolveGains(std::vector<Pair>& pairs, int channel, std::vector<ColourModel::
 void SolveFaceGains(const std::vector<ChartCells>& cells, ColourModel& colour) {
   constexpr double kFewCells = 12;    // below this many, a chart's gain is pulled to none
   constexpr int kEnoughCells = 3000;  // medians need no more
-  for (size_t chart = 0; chart < cells.size(); ++chart) {
+  tbb::parallel_for(size_t{0}, cells.size(), [&](size_t chart) {
     const ChartCells& grid = cells[chart];
     std::vector<Eigen::Array3f> shift(grid.photos.size(), Eigen::Array3f::Zero());
     std::vector<std::pair<float, float>> sorted;
@@ -223,7 +264,7 @@ void SolveFaceGains(const std::vector<ChartCells>& cells, ColourModel& colour) {
       }
     }
     for (size_t k = 0; k < grid.photos.size(); ++k) colour.face_gains[chart][k] += shift[k];
-  }
+  });
   // How uneven each photograph's light is.
   std::vector<double> squares(colour.photos.size(), 0);
   std::vector<double> weights(colour.photos.size(), 1e-9);
@@ -269,10 +310,10 @@ ColourModel EstimateColour(const std::vector<ChartCells>& cells, size_t num_phot
   ColourModel colour = MakeNeutralColour(cells, num_photos);
   std::vector<Pair> pairs = FindPairs(cells);
   if (pairs.empty()) return colour;
-  for (int channel = 0; channel < 3; ++channel) {
+  tbb::parallel_for(0, 3, [&](int channel) {
     SolveVignetting(pairs, channel, colour.photos);
     SolveGains(pairs, channel, colour.photos);
-  }
+  });
   for (int round = 0; round < 3; ++round) SolveFaceGains(cells, colour);
   AnchorOnMean(colour);
   return colour;

@@ -18,7 +18,8 @@ PhotoCache::PhotoCache(std::vector<std::filesystem::path> files, size_t max_byte
   }
 }
 
-std::shared_ptr<const PhotoPyramid> PhotoCache::Get(int photo) {
+std::shared_ptr<const PhotoPyramid> PhotoCache::Get(
+    int photo, const std::function<void(const PhotoPyramid&)>& on_whole) {
   Entry& entry = *entries_[photo];
   const auto find = [&]() -> std::shared_ptr<const PhotoPyramid> {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -28,12 +29,13 @@ std::shared_ptr<const PhotoPyramid> PhotoCache::Get(int photo) {
   if (auto pyramid = find()) return pyramid;
   const std::lock_guard<std::mutex> decoding(entry.decoding);
   if (auto pyramid = find()) return pyramid;
-  std::shared_ptr<const PhotoPyramid> pyramid;
+  std::shared_ptr<PhotoPyramid> pyramid;
   // Isolated: this thread must not take up other work that waits for the same photograph.
   tbb::this_task_arena::isolate([&] {
-    pyramid = bits_ == 16
-                  ? std::make_shared<const PhotoPyramid>(ReadSrgb16(entry.file), num_dropped_)
-                  : std::make_shared<const PhotoPyramid>(ReadSrgb8(entry.file), num_dropped_);
+    pyramid = bits_ == 16 ? std::make_shared<PhotoPyramid>(ReadSrgb16(entry.file))
+                          : std::make_shared<PhotoPyramid>(ReadSrgb8(entry.file));
+    if (on_whole) on_whole(*pyramid);
+    pyramid->DropLevels(num_dropped_);
   });
   const std::lock_guard<std::mutex> lock(mutex_);
   ++num_decoded_;
@@ -60,12 +62,9 @@ void PhotoCache::SetMaxBytes(size_t max_bytes) {
   DropOldest();
 }
 
-void PhotoCache::DropLevels(int num_dropped) {
+void PhotoCache::SetNumDropped(int num_dropped) {
   const std::lock_guard<std::mutex> lock(mutex_);
   num_dropped_ = num_dropped;
-  const size_t max_bytes = std::exchange(max_bytes_, 0);
-  DropOldest();
-  max_bytes_ = max_bytes;
 }
 
 size_t PhotoCache::num_bytes() const {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -21,12 +22,14 @@ class PhotoCache {
   // bits: 8 or 16, of the decoded photographs' channels.
   PhotoCache(std::vector<std::filesystem::path> files, size_t max_bytes, int bits = 8);
 
-  // Throws Error for a file that cannot be read.
-  std::shared_ptr<const PhotoPyramid> Get(int photo);
+  // Throws Error for a file that cannot be read. on_whole gets the photograph with all its levels
+  // if it is decoded now.
+  std::shared_ptr<const PhotoPyramid> Get(
+      int photo, const std::function<void(const PhotoPyramid&)>& on_whole = {});
 
   void SetMaxBytes(size_t max_bytes);
-  // From now on without the finest levels; what is in memory is forgotten.
-  void DropLevels(int num_dropped);
+  // Photographs that are decoded from now on do without their finest levels.
+  void SetNumDropped(int num_dropped);
 
   int bits() const { return bits_; }
   size_t num_bytes() const;

@@ -66,22 +66,12 @@ Raster<Code> Halve(const Raster<Code>& full) {
   return half;
 }
 
-// How many levels can be dropped: one is always kept.
-int NumDropped(int width, int height, int wanted) {
-  int num_dropped = 0;
-  for (int side = std::min(width, height); side >= 8 && num_dropped < wanted; side /= 2) {
-    ++num_dropped;
-  }
-  return num_dropped;
-}
-
 template <typename Code>
-std::vector<Raster<Code>> MakeLevels(Raster<Code> full, int num_dropped) {
+std::vector<Raster<Code>> MakeLevels(Raster<Code> full) {
   std::vector<Raster<Code>> levels;
   levels.push_back(std::move(full));
   while (std::min(levels.back().width, levels.back().height) >= 8) {
     levels.push_back(Halve(levels.back()));
-    if (num_dropped-- > 0) levels.erase(levels.begin());
   }
   return levels;
 }
@@ -185,13 +175,17 @@ uint16_t Srgb16FromRadiance(float radiance) {
   return static_cast<uint16_t>(65535 * SrgbFromLinear(radiance) + 0.5f);
 }
 
-PhotoPyramid::PhotoPyramid(Image8 srgb8, int num_dropped)
-    : num_dropped_(NumDropped(srgb8.width, srgb8.height, num_dropped)) {
-  levels8_ = MakeLevels(std::move(srgb8), num_dropped);
-}
-PhotoPyramid::PhotoPyramid(Image16 srgb16, int num_dropped)
-    : num_dropped_(NumDropped(srgb16.width, srgb16.height, num_dropped)) {
-  levels16_ = MakeLevels(std::move(srgb16), num_dropped);
+PhotoPyramid::PhotoPyramid(Image8 srgb8) : levels8_(MakeLevels(std::move(srgb8))) {}
+PhotoPyramid::PhotoPyramid(Image16 srgb16) : levels16_(MakeLevels(std::move(srgb16))) {}
+
+void PhotoPyramid::DropLevels(int num_dropped) {
+  const auto drop = [&](auto& levels) {
+    for (; num_dropped > 0 && levels.size() > 1; --num_dropped, ++num_dropped_) {
+      levels.erase(levels.begin());
+    }
+  };
+  drop(levels8_);
+  drop(levels16_);
 }
 
 size_t PhotoPyramid::NumBytes() const {

@@ -13,10 +13,12 @@ namespace groundglass {
 // A photograph and its halvings, kept as sRGB of 8 or 16 bits, filtered in linear light.
 class PhotoPyramid {
  public:
-  // num_dropped: the finest levels that are not kept, where only coarser ones are needed; what is
-  // sampled is still given in the whole photograph's pixels.
-  explicit PhotoPyramid(Image8 srgb8, int num_dropped = 0);
-  explicit PhotoPyramid(Image16 srgb16, int num_dropped = 0);
+  explicit PhotoPyramid(Image8 srgb8);
+  explicit PhotoPyramid(Image16 srgb16);
+
+  // Forgets that many of the finest levels, where only coarser ones are needed; one is always kept.
+  // What is sampled is still given in the whole photograph's pixels.
+  void DropLevels(int num_dropped);
 
   // The mean radiance of the parallelogram centred at image_px and spanned by the columns of
   // px_from_texel: one texel's footprint. Taps are bicubic (Catmull-Rom; Keys 1981, a = -1/2), no

@@ -32,6 +32,57 @@ double SmoothStep(double low, double high, double value) {
   return t * t * (3 - 2 * t);
 }
 
+// The camera of a picture with pixels `side` times as long, of which the last ones may reach over
+// the frame.
+Camera CoarserCamera(const Camera& camera, int side) {
+  Camera coarse = camera;
+  coarse.width_px = (camera.width_px + side - 1) / side;
+  coarse.height_px = (camera.height_px + side - 1) / side;
+  coarse.focal_x_px /= side;
+  coarse.focal_y_px /= side;
+  coarse.center_x_px /= side;
+  coarse.center_y_px /= side;
+  return coarse;
+}
+
+// Coarse pixels are ignored if any of theirs are.
+Image8 Coarser(const Image8& ignored, int side) {
+  if (ignored.Empty() || side == 1) return ignored;
+  Image8 coarse((ignored.width + side - 1) / side, (ignored.height + side - 1) / side, 1);
+  for (int y = 0; y < ignored.height; ++y) {
+    for (int x = 0; x < ignored.width; ++x) {
+      *coarse.At(x / side, y / side) |= *ignored.At(x, y);
+    }
+  }
+  return coarse;
+}
+
+// What is not to be looked at: the slide's mount, and what the photograph's own mask says. Empty:
+// everything is.
+Image8 FindIgnored(const BakePhotograph& photograph,
+                   int index,
+                   const BakeOptions& options,
+                   PhotoCache& cache) {
+  Image8 ignored;
+  if (options.detect_mount) {
+    cache.Get(index, [&](const PhotoPyramid& whole) {
+      ignored = whole.bits() == 16 ? FindMount(whole.Full16()) : FindMount(whole.Full());
+    });
+  }
+  if (photograph.mask_file) {
+    const Image16 mask = ReadLabels(*photograph.mask_file);
+    CheckSize(*photograph.mask_file, mask.width, mask.height, photograph.camera);
+    if (ignored.Empty()) ignored = Image8(mask.width, mask.height, 1);
+    // White may be 255 or 65535, and anything brighter than the middle is white.
+    const uint16_t top = *std::max_element(mask.values.begin(), mask.values.end());
+    const int threshold = top > 255 ? 32768 : 128;
+    for (size_t i = 0; i < mask.values.size(); ++i) {
+      if (mask.values[i] >= threshold) ignored.values[i] = 255;
+    }
+  }
+  return ignored;
+}
+
 }  // namespace
 
 PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
@@ -41,6 +92,7 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
                              const EarlierModel* earlier,
                              const std::vector<int>& chart_of_face,
                              const BakeOptions& options,
+                             const MaskDetail& detail,
                              PhotoCache& cache)
     : visibility_(visibility),
       earlier_(earlier),
@@ -54,18 +106,26 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
       frame_margin_px_(std::max(1.0, options.frame_margin * photograph.camera.width_px)),
       border_margin_px_(options.border_margin_px),
       tolerance_(visibility.DefaultTolerance()),
-      is_hand_painted_(photograph.faces_file.has_value()) {
+      is_hand_painted_(photograph.faces_file.has_value()),
+      mask_side_(is_hand_painted_ ? 1 : 1 << detail.num_halvings),
+      mask_from_image_(1.0 / mask_side_),
+      crease_bonus_px_(kCreaseBonusPx / mask_side_) {
   if (photograph.faces) {
     allowed_.assign(model.faces.size(), 0);
     for (const int face : *photograph.faces) allowed_.at(face) = 1;
   }
   const ImageSize size = ReadImageSize(photograph.image_file);
   CheckSize(photograph.image_file, size.width, size.height, camera_);
+  const bool is_asked_for = options.on_face_mask && !detail.is_survey;
   Image16 labels;
-  if (!is_hand_painted_ || options.on_face_mask) {
-    labels = earlier ? earlier->MakeFaceMask(camera_) : MakeFaceMask(model, visibility, camera_);
+  const auto make_labels = [&](int side) {
+    const Camera camera = CoarserCamera(camera_, side);
+    labels = earlier ? earlier->MakeFaceMask(camera) : MakeFaceMask(model, visibility, camera);
+  };
+  if (is_asked_for) {
+    make_labels(1);
+    options.on_face_mask(photograph, labels);
   }
-  if (options.on_face_mask) options.on_face_mask(photograph, labels);
   if (is_hand_painted_) {
     labels = ReadLabels(*photograph.faces_file);
     CheckSize(*photograph.faces_file, labels.width, labels.height, camera_);
@@ -76,27 +136,23 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
                         std::to_string(model.faces.size()));
       }
     }
+  } else if (mask_side_ > 1 || !is_asked_for) {
+    make_labels(mask_side_);
   }
-  Image8 ignored;
-  if (options.detect_mount) {
-    const auto pixels = Pixels();
-    ignored = pixels->bits() == 16 ? FindMount(pixels->Full16()) : FindMount(pixels->Full());
-  }
-  if (photograph.mask_file) {
-    const Image16 mask = ReadLabels(*photograph.mask_file);
-    CheckSize(*photograph.mask_file, mask.width, mask.height, camera_);
-    if (ignored.Empty()) ignored = Image8(camera_.width_px, camera_.height_px, 1);
-    // White may be 255 or 65535, and anything brighter than the middle is white.
-    const uint16_t top = *std::max_element(mask.values.begin(), mask.values.end());
-    const int threshold = top > 255 ? 32768 : 128;
-    for (size_t i = 0; i < mask.values.size(); ++i) {
-      if (mask.values[i] >= threshold) ignored.values[i] = 255;
-    }
-  }
+  const Image8 ignored = detail.is_survey
+                             ? Image8()
+                             : Coarser(FindIgnored(photograph, index, options, cache), mask_side_);
   // Farther than this from a border, distance no longer matters.
-  const double farthest_px = std::max(border_margin_px_ + kTrustedFrom, 3 + kCreaseBonusPx) + 1;
+  const double farthest_px =
+      std::max((border_margin_px_ + kTrustedFrom - 0.5) / mask_side_ + 0.5, 3 + crease_bonus_px_) +
+      1;
   sight_map_ = SightMap(labels,
-                        ComputeBorderDistance(model, camera_, labels, chart_of_face, ignored),
+                        ComputeBorderDistance(model,
+                                              CoarserCamera(camera_, mask_side_),
+                                              labels,
+                                              chart_of_face,
+                                              ignored,
+                                              crease_bonus_px_),
                         std::min(255, static_cast<int>(farthest_px * kBorderStepsPerPx)));
   is_shown_ = sight_map_.ShownFaces(model.faces.size());
 }
@@ -132,8 +188,8 @@ bool PreparedPhoto::IsInView(const Eigen::Vector3d& point_in_world) const {
 
 Eigen::Vector2d PreparedPhoto::StepInside(const Eigen::Vector2d& image_px, int chart_index) const {
   constexpr double kStep = 0.3;  // px: more loses what stands at the border, less shows both sides
-  const int x = static_cast<int>(image_px.x());
-  const int y = static_cast<int>(image_px.y());
+  const int x = static_cast<int>(image_px.x() * mask_from_image_);
+  const int y = static_cast<int>(image_px.y() * mask_from_image_);
   int most = sight_map_.At(x, y).border;
   Eigen::Vector2d step = Eigen::Vector2d::Zero();
   for (int j = std::max(0, y - 1); j <= std::min(sight_map_.height() - 1, y + 1); ++j) {
@@ -163,14 +219,13 @@ std::optional<Sighting> PreparedPhoto::Sight(const ChartInCamera& view,
                                 camera_.width_px - image_px->x(),
                                 camera_.height_px - image_px->y()});
   if (!(sighting.frame_px >= frame_margin_px_)) return std::nullopt;
-  const SightMap::Pixel pixel =
-      sight_map_.At(static_cast<int>(image_px->x()), static_cast<int>(image_px->y()));
-  const double border_px = pixel.border / kBorderStepsPerPx;
+  const SightMap::Pixel pixel = PixelAt(*image_px);
+  const double border_px = pixel.border / kBorderStepsPerPx;  // of the mask
   const bool is_own = pixel.label != 0 && chart_of_face_[pixel.label - 1] == view.chart_index;
   if (is_hand_painted_) {
     const bool is_painted = pixel.label == face + 1;
     if (is_painted ? border_px == 0 : !IsPaintedBeside(*image_px, face)) return std::nullopt;
-  } else if (border_px < 1.5 + kCreaseBonusPx) {
+  } else if (border_px < 1.5 + crease_bonus_px_) {
     // The pixel's centre does not speak for its whole: ask for the very point.
     if (border_px == 0 && is_own) return std::nullopt;  // ignored
     const Eigen::Vector3d point_in_world = view.chart->origin_in_world +
@@ -180,8 +235,9 @@ std::optional<Sighting> PreparedPhoto::Sight(const ChartInCamera& view,
   } else if (!is_own) {
     return std::nullopt;
   }
-  sighting.border_px = is_own ? border_px : 0;  // 0 also half a pixel beside what was painted
-  if (is_own && border_px < 1 + kCreaseBonusPx) {
+  // 0 also half a pixel beside what was painted; in a coarse mask, of the pixel's nearest point.
+  sighting.border_px = is_own ? std::max(0.0, (border_px - 0.5) * mask_side_ + 0.5) : 0;
+  if (is_own && border_px < 1 + crease_bonus_px_) {
     sighting.image_px += StepInside(*image_px, view.chart_index);
   }
 

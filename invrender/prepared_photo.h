@@ -35,6 +35,15 @@ struct ChartInCamera {
   Eigen::Vector3d down_in_cam;
 };
 
+// How much is made of a photograph's mask.
+struct MaskDetail {
+  // How often its sides are halved; masks painted by hand stay as they are.
+  int num_halvings = 0;
+  // Only what the model says: neither pixels nor masks of what to ignore are read, and
+  // BakeOptions::on_face_mask is not called.
+  bool is_survey = false;
+};
+
 // A photograph made ready to be looked up: its face mask, how far each pixel is from what must not
 // be printed on its face, and its pixels through a cache.
 class PreparedPhoto {
@@ -49,6 +58,7 @@ class PreparedPhoto {
                 const EarlierModel* earlier,
                 const std::vector<int>& chart_of_face,
                 const BakeOptions& options,
+                const MaskDetail& detail,
                 PhotoCache& cache);
 
   ChartInCamera View(const Chart& chart, int chart_index) const;
@@ -70,7 +80,7 @@ class PreparedPhoto {
   double NumPixelBytes() const {
     return 0.5 * cache_.bits() * camera_.width_px * camera_.height_px;
   }
-  size_t NumMaskBytes() const { return sight_map_.NumBytes(); }
+  const SightMap& Mask() const { return sight_map_; }
 
   // Squared distance from the image's centre, 1 at the corners: vignetting's argument.
   double RadiusSquared(const Eigen::Vector2d& image_px) const {
@@ -79,7 +89,7 @@ class PreparedPhoto {
   bool IsHandPainted() const { return is_hand_painted_; }
   bool MayTexture(int face) const { return allowed_.empty() || allowed_[face]; }
   // Whether some pixel's centre shows the face; slivers may be seen without.
-  bool Shows(int face) const { return is_shown_[face] != 0; }
+  bool Shows(int face) const { return is_shown_[face]; }
 
  private:
   // Painted masks are as coarse as pixels: a face goes half a pixel on beyond the centres of those
@@ -91,6 +101,11 @@ class PreparedPhoto {
   // From a pixel beside a border a little towards the neighbour that is farthest from it: the pixel
   // itself is mixed of both sides.
   Eigen::Vector2d StepInside(const Eigen::Vector2d& image_px, int chart_index) const;
+
+  SightMap::Pixel PixelAt(const Eigen::Vector2d& image_px) const {
+    return sight_map_.At(static_cast<int>(image_px.x() * mask_from_image_),
+                         static_cast<int>(image_px.y() * mask_from_image_));
+  }
 
   const Visibility& visibility_;
   const EarlierModel* earlier_;
@@ -105,8 +120,11 @@ class PreparedPhoto {
   double border_margin_px_ = 0;
   double tolerance_ = 0;
   bool is_hand_painted_ = false;
+  int mask_side_ = 1;           // pixels of the image along a side of the mask's
+  double mask_from_image_ = 1;  // 1 / mask_side_
+  double crease_bonus_px_ = 0;  // of the mask
   std::vector<char> allowed_;
-  std::vector<char> is_shown_;
+  std::vector<bool> is_shown_;
   SightMap sight_map_;
 };
 

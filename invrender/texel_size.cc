@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "invrender/texel_size.h"
 
+#include "invrender/cells.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -40,16 +42,18 @@ void ChooseTexelSizes(const PolygonModel& model,
   const int room = options.max_page_texels - 2 * options.gutter_texels;
   tbb::parallel_for(size_t{0}, charts.size(), [&](size_t index) {
     Chart& chart = charts[index];
+    chart.texel_size = 0;
+    const std::vector<int> seeing = FindPhotosOfChart(chart, static_cast<int>(index), photos);
     std::vector<ChartInCamera> views;
-    for (const PreparedPhoto& photo : photos) {
-      views.push_back(photo.View(chart, static_cast<int>(index)));
+    for (const int photo : seeing) {
+      views.push_back(photos[photo].View(chart, static_cast<int>(index)));
     }
     std::vector<double> best_resolutions;
     for (const int face : chart.faces) {
       for (const Eigen::Vector3d& point : SpreadPoints(model, face)) {
         double best = 0;
-        for (size_t i = 0; i < photos.size(); ++i) {
-          const auto sighting = photos[i].Sight(views[i], chart.PlanePoint(point), face);
+        for (size_t i = 0; i < seeing.size(); ++i) {
+          const auto sighting = photos[seeing[i]].Sight(views[i], chart.PlanePoint(point), face);
           if (!sighting) continue;
           best = std::max(best, std::sqrt(std::abs(sighting->px_from_unit.determinant())));
         }

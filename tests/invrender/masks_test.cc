@@ -84,6 +84,28 @@ TEST(SightMap, AnswersAsThePicturesThatItWasMadeOf) {
   EXPECT_THAT(map.ShownFaces(6), testing::ElementsAre(0, 0, 1, 0, 1, 0));
 }
 
+TEST(SightMap, TakesLittleHoweverManyFacesMeetInATile) {
+  // Tiles with one to seven faces and with one distance or many.
+  Image16 labels(56, 16, 1);
+  Image8 border(56, 16, 1, 9);
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 56; ++x) {
+      *labels.At(x, y) = static_cast<uint16_t>(40000 + (x + 3 * y) % (1 + x / 8));
+      if (y >= 8) *border.At(x, y) = static_cast<uint8_t>(x % 8 + y);
+    }
+  }
+  const SightMap map(labels, border, 50);
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 56; ++x) {
+      ASSERT_EQ(map.At(x, y), (SightMap::Pixel{*labels.At(x, y), *border.At(x, y)})) << x << y;
+    }
+  }
+  EXPECT_EQ(map.NumTileBytes(), 4u * 14);
+  // Labels: 1, 2, 4 and 4 of a palette with 0, 8, 16 and 16 bytes, then 64 of two bytes.
+  const size_t above = 13 + 2 * 25 + 3 * 129;
+  EXPECT_LE(map.NumBytes(), 4 * 14 + 6 * 4 + above + 7 * 66 + 3 + 12 + 2 * 24 + 3 * 128);
+}
+
 TEST(FindMount, FindsTheDarkRimAndLeavesDarkWindowsAlone) {
   Image8 slide(300, 200, 3, 120);
   const auto fill = [&](int x0, int y0, int x1, int y1, uint8_t value) {

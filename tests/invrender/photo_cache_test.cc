@@ -54,22 +54,25 @@ TEST(PhotoCache, WithoutTheFinestLevelsPlacesStayWhereTheyAre) {
     for (int x = 0; x < 64; ++x) std::fill_n(ramp.At(x, y), 3, static_cast<uint8_t>(60 + 2 * x));
   }
   WriteSrgb8(folder / "ramp.png", ramp);
-  PhotoCache cache({folder / "ramp.png"}, 1 << 20);
+  PhotoCache cache({folder / "ramp.png"}, 0);
   const Eigen::Matrix2d footprint = 4 * Eigen::Matrix2d::Identity();
-  const auto whole = cache.Get(0);
-  cache.DropLevels(2);
-  EXPECT_EQ(cache.num_bytes(), 0u);
-  const auto coarse = cache.Get(0);
+  const auto whole = PhotoCache({folder / "ramp.png"}, 0).Get(0);
+  cache.SetNumDropped(2);
+  // Whoever reads it first sees it whole.
+  size_t num_bytes = 0;
+  const auto coarse = cache.Get(0, [&](const PhotoPyramid& all) { num_bytes = all.NumBytes(); });
+  EXPECT_EQ(num_bytes, whole->NumBytes());
   EXPECT_LT(coarse->NumBytes(), whole->NumBytes() / 12);
   for (const Eigen::Vector2d& at : {Eigen::Vector2d(20.3, 17), {31, 24.5}, {44.8, 30}}) {
     const float expected = whole->Sample(at, footprint)[0];
     EXPECT_NEAR(coarse->Sample(at, footprint)[0], expected, 0.01 * expected);
   }
   // At least one level is left of however small a picture.
-  cache.DropLevels(9);
-  EXPECT_GT(cache.Get(0)->NumBytes(), 0u);
+  PhotoCache coarsest({folder / "ramp.png"}, 0);
+  coarsest.SetNumDropped(9);
+  EXPECT_GT(coarsest.Get(0)->NumBytes(), 0u);
   EXPECT_NEAR(
-      cache.Get(0)->Sample({32, 24}, footprint)[0], whole->Sample({32, 24}, footprint)[0], 0.02);
+      coarsest.Get(0)->Sample({32, 24}, footprint)[0], whole->Sample({32, 24}, footprint)[0], 0.02);
 }
 
 TEST(PhotoCache, AMissingFileIsAnError) {
