@@ -25,6 +25,13 @@ float WeightedMedian(std::vector<std::pair<float, float>>& value_and_weight) {
   return 0;
 }
 
+// The same where all weigh the same.
+float LowerMedian(std::vector<float>& values) {
+  const size_t middle = (values.size() - 1) / 2;
+  std::nth_element(values.begin(), values.begin() + middle, values.end());
+  return values[middle];
+}
+
 float Median(std::vector<float>& values) {
   const size_t middle = values.size() / 2;
   std::nth_element(values.begin(), values.begin() + middle, values.end());
@@ -233,7 +240,7 @@ void SolveFaceGains(const std::vector<ChartCells>& cells, ColourModel& colour) {
     std::vector<double> count(grid.photos.size(), 0);
     const int step = StepThrough(grid, kEnoughCells);
     for (int channel = 0; channel < 3; ++channel) {
-      std::vector<std::vector<std::pair<float, float>>> residuals(grid.photos.size());
+      std::vector<std::vector<float>> residuals(grid.photos.size());
       for (int cell = 0; cell < grid.NumCells(); cell += step) {
         const CellView* views = grid.ViewsOf(cell);
         sorted.clear();
@@ -253,14 +260,14 @@ void SolveFaceGains(const std::vector<ChartCells>& cells, ColourModel& colour) {
           if (!views[k].is_usable) continue;
           const float value = colour.Corrected(
               grid.photos[k], static_cast<int>(chart), static_cast<int>(k), views[k])[channel];
-          residuals[k].emplace_back(value - reference, 1.0f);
+          residuals[k].push_back(value - reference);
         }
       }
       for (size_t k = 0; k < grid.photos.size(); ++k) {
         count[k] = static_cast<double>(residuals[k].size());
         if (residuals[k].empty()) continue;
         shift[k][channel] =
-            WeightedMedian(residuals[k]) * static_cast<float>(count[k] / (count[k] + kFewCells));
+            LowerMedian(residuals[k]) * static_cast<float>(count[k] / (count[k] + kFewCells));
       }
     }
     for (size_t k = 0; k < grid.photos.size(); ++k) colour.face_gains[chart][k] += shift[k];

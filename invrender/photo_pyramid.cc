@@ -31,7 +31,7 @@ const float* RadianceTable() {
 }
 
 constexpr int kEncodeSteps = 16384;
-const std::vector<uint8_t>& EncodeTable() {
+const uint8_t* EncodeTable() {
   static const std::vector<uint8_t> table = [] {
     std::vector<uint8_t> codes(kEncodeSteps + 1);
     for (int i = 0; i <= kEncodeSteps; ++i) {
@@ -40,26 +40,32 @@ const std::vector<uint8_t>& EncodeTable() {
     }
     return codes;
   }();
-  return table;
+  return table.data();
 }
-
-void Encode(float radiance, uint8_t& code) { code = Srgb8FromRadiance(radiance); }
-void Encode(float radiance, uint16_t& code) { code = Srgb16FromRadiance(radiance); }
 
 template <typename Code>
 Raster<Code> Halve(const Raster<Code>& full) {
   Raster<Code> half(std::max(1, full.width / 2), std::max(1, full.height / 2), 3);
   const float* radiance = RadianceTable<Code>();
+  const uint8_t* codes = EncodeTable();
+  const auto encode = [codes](float mean) {  // of codes, so from 0 to 1
+    if constexpr (sizeof(Code) == 1) {
+      return codes[static_cast<int>(mean * kEncodeSteps + 0.5f)];
+    } else {
+      return Srgb16FromRadiance(mean);
+    }
+  };
   tbb::parallel_for(0, half.height, [&](int y) {
-    const int y0 = 2 * y;
-    const int y1 = std::min(2 * y + 1, full.height - 1);
+    const Code* top = full.At(0, 2 * y);
+    const Code* bottom = full.At(0, std::min(2 * y + 1, full.height - 1));
+    Code* to = half.At(0, y);
     for (int x = 0; x < half.width; ++x) {
-      const int x0 = 2 * x;
-      const int x1 = std::min(2 * x + 1, full.width - 1);
+      const int left = 6 * x;
+      const int right = 3 * std::min(2 * x + 1, full.width - 1);
       for (int c = 0; c < 3; ++c) {
-        const float sum = radiance[full.At(x0, y0)[c]] + radiance[full.At(x1, y0)[c]] +
-                          radiance[full.At(x0, y1)[c]] + radiance[full.At(x1, y1)[c]];
-        Encode(sum / 4, half.At(x, y)[c]);
+        const float sum = radiance[top[left + c]] + radiance[top[right + c]] +
+                          radiance[bottom[left + c]] + radiance[bottom[right + c]];
+        to[3 * x + c] = encode(sum / 4);
       }
     }
   });

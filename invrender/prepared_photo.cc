@@ -153,7 +153,7 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
                                               chart_of_face,
                                               ignored,
                                               crease_bonus_px_),
-                        std::min(255, static_cast<int>(farthest_px * kBorderStepsPerPx)));
+                        std::min(kFarthestBorder, static_cast<int>(farthest_px * kBorderStepsPerPx)));
   is_shown_ = sight_map_.ShownFaces(model.faces.size());
 }
 

@@ -151,8 +151,12 @@ class OpenImage {
 // libjpeg fills what is missing of a truncated file with grey and says nothing, so look for the
 // end marker ourselves: past the headers, which may hold a whole thumbnail.
 void CheckJpegIsWhole(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(in), {}};
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in.tellg();
+  std::vector<unsigned char> bytes(std::max<std::streamoff>(size, 0));
+  in.seekg(0);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<size_t>(in.gcount()));
   if (bytes.size() < 4 || bytes[0] != 0xFF || bytes[1] != 0xD8) return;  // not a JPEG
   size_t at = 2;
   while (at + 1 < bytes.size()) {
@@ -175,14 +179,17 @@ void CheckJpegIsWhole(const std::filesystem::path& file) {
 }
 
 // Picks and repeats channels, then turns the picture upright.
-template <typename T, typename Convert>
-Raster<T> ColourOf(OpenImage& image, const Raster<T>& stored, Convert convert) {
+template <typename T>
+Raster<T> ColourOf(OpenImage& image, Raster<T> stored) {
   const std::array<int, 3> channels = image.ColourChannels();
+  if (stored.channels == 3 && channels == std::array<int, 3>{0, 1, 2}) {
+    return Oriented(std::move(stored), image.ExifOrientation());
+  }
   Raster<T> colour(stored.width, stored.height, 3);
   const size_t pixels = static_cast<size_t>(stored.width) * stored.height;
   for (size_t i = 0; i < pixels; ++i) {
     for (int c = 0; c < 3; ++c) {
-      colour.values[3 * i + c] = convert(stored.values[i * stored.channels + channels[c]]);
+      colour.values[3 * i + c] = stored.values[i * stored.channels + channels[c]];
     }
   }
   return Oriented(std::move(colour), image.ExifOrientation());
@@ -192,14 +199,14 @@ Raster<T> ColourOf(OpenImage& image, const Raster<T>& stored, Convert convert) {
 template <typename Code>
 Raster<Code> ReadCodes(OpenImage& image, OIIO::TypeDesc type) {
   const std::optional<ColourProfile> profile = image.Profile();
-  Raster<Code> codes = ColourOf(image, image.Read<Code>(type), [](Code code) { return code; });
+  Raster<Code> codes = ColourOf(image, image.Read<Code>(type));
   if (profile) profile->ToSrgb(codes);
   return codes;
 }
 
 // Of an image whose values are linear light.
 ImageF ReadOpenRadiance(OpenImage& image) {
-  return ColourOf(image, image.Read<float>(OIIO::TypeFloat), [](float value) { return value; });
+  return ColourOf(image, image.Read<float>(OIIO::TypeFloat));
 }
 
 uint8_t CodeFromLinear(float linear) {
