@@ -8,6 +8,9 @@
 #include "scene/textured_model_io.h"
 #include "scene/view_io.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 
 namespace groundglass {
@@ -100,11 +103,18 @@ void WriteBake(const BakeResult& result,
                const std::filesystem::path& out,
                const std::string& page_extension) {
   const TexturedModel& model = result.model;
-  WriteGlb(out / "model.glb", model);
-  WriteTexturedObj(out / "model.obj", model, page_extension);
-  for (size_t i = 0; i < model.pages.size(); ++i) {
-    WriteLabels(out / ("provenance_" + std::to_string(i) + ".png"), model.pages[i].provenance);
-  }
+  tbb::parallel_invoke(
+      [&] {
+        const JpegPages pages = EncodePages(model);
+        WriteGlb(out / "model.glb", model, pages);
+        WriteTexturedObj(out / "model.obj", model, page_extension, pages);
+      },
+      [&] {
+        tbb::parallel_for(size_t{0}, model.pages.size(), [&](size_t i) {
+          WriteLabels(out / ("provenance_" + std::to_string(i) + ".png"),
+                      model.pages[i].provenance);
+        });
+      });
   for (const std::string extension : {".jpg", ".png", ".tif", ".exr"}) {
     RemoveFrom(out, "model_", extension == page_extension ? model.pages.size() : 0, extension);
   }

@@ -153,7 +153,8 @@ std::vector<ChartCells> ObserveCells(const PolygonModel& model,
   tbb::parallel_for(0, num_charts, [&](int i) {
     if (charts[i].page >= 0) observers[i].emplace(model, charts[i], i, photos);
   });
-  for (int photo = 0; photo < static_cast<int>(photos.size()); ++photo) {
+  // Backwards: those that were read last may still be in memory.
+  for (int photo = static_cast<int>(photos.size()) - 1; photo >= 0; --photo) {
     std::shared_ptr<const PhotoPyramid> pixels;
     for (const std::optional<CellObserver>& observer : observers) {
       if (!pixels && observer && observer->MaySee(photo)) pixels = photos[photo].Pixels();

@@ -140,6 +140,7 @@ void SolveVignetting(const std::vector<Pair>& pairs,
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(num_photos, num_photos);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(num_photos);
     std::vector<float> residuals;
+    std::vector<float> ordered;
     for (const Pair& pair : pairs) {
       const auto value = [&](size_t i) {
         const auto [a, b] = pair.Views(i);
@@ -152,13 +153,14 @@ void SolveVignetting(const std::vector<Pair>& pairs,
       };
       residuals.clear();
       for (size_t i = 0; i < pair.cells.size(); ++i) residuals.push_back(residual(i));
-      const float middle = Median(residuals);
+      ordered = residuals;
+      const float middle = Median(ordered);
       // Weighted means, to eliminate the chart's own difference.
       double sum_weight = 0;
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
       Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
       for (size_t i = 0; i < pair.cells.size(); ++i) {
-        const double e = (residual(i) - middle) / kScale;
+        const double e = (residuals[i] - middle) / kScale;
         const double weight = 1 / ((1 + e * e) * (1 + e * e));
         const auto [first, second] = pair.Views(i);
         const Eigen::Vector3d row(first->radius_squared, -second->radius_squared, value(i));

@@ -28,6 +28,7 @@ constexpr double kPhotoShare = 0.3;
 constexpr double kFewPhotos = 3;
 // A band of a chart's texels with their look-ups.
 constexpr double kBandBytes = 80 * kMegabyte;
+constexpr double kDecodedAtOnce = 2;
 // Texels this much longer are no texture any more.
 constexpr double kLargestScale = 8;
 
@@ -35,9 +36,10 @@ constexpr double kLargestScale = 8;
 constexpr int kMostHalvings = 3;
 // What reading, masking and writing the mask of a photograph take for a pixel, in 8 bits.
 constexpr double kReadingBytes = 12;
-// Texels this much longer are a fair price for photographs that are at hand; masks may become
-// coarser where texels become shorter by as much.
-constexpr double kWorthIt = 1.1;
+// Texels this much longer are a fair price for photographs that are at hand.
+constexpr double kWorthDropping = 1.15;
+// Masks may become coarser where texels become shorter by this much.
+constexpr double kWorthHalving = 1.1;
 // What is foretold of masks may be wrong by this much.
 constexpr double kForetelling = 1.3;
 
@@ -136,8 +138,8 @@ class Planner {
     const double shrink = std::pow(4.0, num_dropped);
     const double kept = all_photos_ / shrink;
     const double fixed = kProgramBytes + mask_bytes;
-    // Even a photograph of which only coarse levels are kept is decoded whole.
-    const double decoding = num_dropped > 0 ? largest_reading_ : 0;
+    // Even photographs of which only coarse levels are kept are decoded whole, on each core.
+    const double decoding = num_dropped > 0 ? kDecodedAtOnce * largest_photo_ : 0;
     const double photos =
         std::min(kept, std::max(kPhotoShare * limit_, kFewPhotos * largest_photo_ / shrink));
     const double taken = fixed + std::max(largest_reading_, kBandBytes + decoding + photos);
@@ -210,10 +212,10 @@ MemoryPlan PlanMemory(const std::vector<Chart>& charts,
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
       const MemoryPlan next =
           planner.Try(num_dropped, halvings, ForetellMaskBytes(survey, halvings));
-      if (halvings == 0 || kWorthIt * next.texel_scale < best.texel_scale) best = next;
+      if (halvings == 0 || kWorthHalving * next.texel_scale < best.texel_scale) best = next;
     }
     // A little is worth having all photographs at hand.
-    if (best.texel_scale <= kWorthIt * plan.texel_scale) plan = best;
+    if (best.texel_scale <= kWorthDropping * plan.texel_scale) plan = best;
   }
   if (plan.texel_scale > kLargestScale) throw planner.TooLittle();
   return plan;

@@ -55,6 +55,11 @@ class SeamProblem {
       }
     }
     if (num_nodes == 0) return;
+    // What a seam to alpha costs a cell; asked for by each of its neighbours.
+    std::vector<double> to_alpha(cells_.NumCells(), 0);
+    for (int cell = 0; cell < cells_.NumCells(); ++cell) {
+      if (labels[cell] >= 0) to_alpha[cell] = Difference(cell, labels[cell], alpha);
+    }
     cv::detail::GCGraph<double> graph(num_nodes + 2, 4 * num_nodes + 2);
     for (int i = 0; i < num_nodes + 2; ++i) graph.addVtx();
     graph.addEdges(num_nodes, num_nodes + 1, 0, 0);  // it insists on an edge
@@ -70,9 +75,10 @@ class SeamProblem {
     for (int y = 0; y < cells_.height; ++y) {
       for (int x = 0; x < cells_.width; ++x) {
         const int cell = y * cells_.width + x;
-        if (x + 1 < cells_.width) Connect(cell, cell + 1, alpha, labels, node, add, graph);
+        if (x + 1 < cells_.width)
+          Connect(cell, cell + 1, alpha, labels, node, to_alpha, add, graph);
         if (y + 1 < cells_.height) {
-          Connect(cell, cell + cells_.width, alpha, labels, node, add, graph);
+          Connect(cell, cell + cells_.width, alpha, labels, node, to_alpha, add, graph);
         }
       }
     }
@@ -105,6 +111,7 @@ class SeamProblem {
                int alpha,
                const std::vector<int>& labels,
                const std::vector<int>& node,
+               const std::vector<double>& to_alpha,
                const Add& add,
                cv::detail::GCGraph<double>& graph) const {
     const int k = labels[cell];
@@ -112,17 +119,23 @@ class SeamProblem {
     if (k < 0 || l < 0) return;
     if (node[cell] < 0 && node[other] < 0) return;
     const double both_keep = Seam(cell, other, k, l);
+    const auto to_alpha_from = [&](int label) {
+      if (label == alpha) return 0.0;
+      const double at_cell = label == k ? to_alpha[cell] : Difference(cell, label, alpha);
+      const double at_other = label == l ? to_alpha[other] : Difference(other, label, alpha);
+      return kSeam + kSeamPerUnit * (at_cell + at_other) / 2;
+    };
     if (node[other] < 0) {
-      add(node[cell], both_keep, Seam(cell, other, alpha, l));
+      add(node[cell], both_keep, to_alpha_from(l));
       return;
     }
     if (node[cell] < 0) {
-      add(node[other], both_keep, Seam(cell, other, k, alpha));
+      add(node[other], both_keep, to_alpha_from(k));
       return;
     }
     // Kolmogorov and Zabih (PAMI 2004): two terms and one edge.
-    const double other_takes = Seam(cell, other, k, alpha);
-    const double cell_takes = Seam(cell, other, alpha, l);
+    const double other_takes = to_alpha_from(k);
+    const double cell_takes = k == l ? other_takes : to_alpha_from(l);
     add(node[cell], both_keep, cell_takes);
     add(node[other], cell_takes, 0);
     graph.addEdges(node[cell], node[other], std::max(0.0, other_takes + cell_takes - both_keep), 0);

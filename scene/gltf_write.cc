@@ -22,7 +22,8 @@ constexpr double kFarFromOrigin_m = 1000;
 
 class GlbWriter {
  public:
-  explicit GlbWriter(const TexturedModel& textured) : textured_(textured) {}
+  GlbWriter(const TexturedModel& textured, const JpegPages& pages)
+      : textured_(textured), pages_(pages) {}
 
   std::string Write() {
     gltf_.asset.version = "2.0";
@@ -90,7 +91,7 @@ class GlbWriter {
     sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
     if (!textured_.pages.empty()) gltf_.samplers.push_back(sampler);
     for (size_t i = 0; i < textured_.pages.size(); ++i) {
-      const std::vector<uint8_t> jpeg = EncodeImage(textured_.pages[i].srgb8, ".jpg");
+      const std::vector<uint8_t>& jpeg = pages_[i];
       tinygltf::Image image;
       image.name = "page_" + std::to_string(i);
       image.mimeType = "image/jpeg";
@@ -216,17 +217,22 @@ class GlbWriter {
   }
 
   const TexturedModel& textured_;
+  const JpegPages& pages_;
   tinygltf::Model gltf_;
   Eigen::Vector3d center_m_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace
 
-void WriteGlb(const std::filesystem::path& file, const TexturedModel& model) {
+void WriteGlb(const std::filesystem::path& file,
+              const TexturedModel& model,
+              const JpegPages& pages) {
   if (model.model.faces.empty() || model.faces.size() != model.model.faces.size()) {
     throw Error(file, "cannot write a model without faces");
   }
-  WriteFileAtomically(file, GlbWriter(model).Write());
+  WriteFileAtomically(file,
+                      pages.empty() ? GlbWriter(model, EncodePages(model)).Write()
+                                    : GlbWriter(model, pages).Write());
 }
 
 }  // namespace groundglass

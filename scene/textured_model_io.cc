@@ -9,6 +9,8 @@
 #include "scene/text.h"
 #include "scene/view_io.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <map>
 
@@ -69,10 +71,18 @@ TexturedModel ReadTexturedObj(const std::filesystem::path& file) {
 
 }  // namespace
 
+JpegPages EncodePages(const TexturedModel& model) {
+  JpegPages pages(model.pages.size());
+  tbb::parallel_for(size_t{0}, pages.size(), [&](size_t i) {
+    pages[i] = EncodeImage(model.pages[i].srgb8, ".jpg");
+  });
+  return pages;
+}
+
 void WriteTexturedObj(const std::filesystem::path& file,
                       const TexturedModel& model,
                       const std::string& image_extension,
-                      const ImageWriteOptions& image_options) {
+                      const JpegPages& pages) {
   const std::string stem = file.stem().string();
   std::string materials = "# Groundglass: one material for each texture page.\n";
   for (size_t i = 0; i < model.pages.size(); ++i) {
@@ -80,8 +90,11 @@ void WriteTexturedObj(const std::filesystem::path& file,
     const bool has_16_bits = !model.pages[i].srgb16.Empty() && image_extension != ".jpg";
     if (has_16_bits) {
       WriteSrgb16(file.parent_path() / picture, model.pages[i].srgb16);
+    } else if (image_extension == ".jpg" && i < pages.size()) {
+      WriteFileAtomically(file.parent_path() / picture,
+                          std::string(pages[i].begin(), pages[i].end()));
     } else {
-      WriteSrgb8(file.parent_path() / picture, model.pages[i].srgb8, image_options);
+      WriteSrgb8(file.parent_path() / picture, model.pages[i].srgb8);
     }
     materials += "\nnewmtl page_" + std::to_string(i) + "\nKa 1 1 1\nKd 1 1 1\nillum 0\nmap_Kd " +
                  picture + "\n";
