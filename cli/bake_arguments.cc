@@ -6,6 +6,8 @@
 #include "scene/error.h"
 #include "scene/text.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 
 namespace groundglass {
@@ -130,6 +132,12 @@ void WriteTilesIfAsked(const BakeArguments& arguments,
       MakeTiles(model, visibility, photograph, *photograph.faces, arguments.tile_options, append);
     });
   }
+}
+
+void KeepFreedMemory(const BakeArguments& arguments) {
+  if (arguments.options.max_memory_mb > 0) return;
+  mallopt(M_MMAP_THRESHOLD, 64 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
 }
 
 void NarrowPhotographs(const BakeArguments& arguments,

@@ -39,6 +39,10 @@ void AddBakeArguments(CLI::App* command,
                       BakeArguments& arguments,
                       const std::string& only_option = "--only-faces");
 
+// Without --memory, memory that is freed stays with the program for what it needs next: pictures
+// come and go, and the system would clear their pages each time.
+void KeepFreedMemory(const BakeArguments& arguments);
+
 // Takes --exclude, --masks, --only and the scene's pairs.csv into account.
 void NarrowPhotographs(const BakeArguments& arguments,
                        const Scene& scene,
