@@ -170,7 +170,7 @@ ChartPixels ComposeChart(const Chart& chart,
       if (options.bits == 16) {
         std::transform(from, from + 3 * width, pixels.srgb16.At(0, y0 + row), Srgb16FromRadiance);
       } else {
-        std::transform(from, from + 3 * width, pixels.srgb8.At(0, y0 + row), Srgb8FromRadiance);
+        Srgb8FromRadiance({from, static_cast<size_t>(3 * width)}, pixels.srgb8.At(0, y0 + row));
       }
     });
   }

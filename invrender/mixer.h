@@ -97,8 +97,12 @@ class Mixer {
   // ChosenByAll for the texels of a row that have a face; -1 for the others.
   void ChooseRow(int y, std::vector<int>& chosen) const {
     chosen.assign(texels_.width(), -1);
+    // The cells around change in the middle of a cell only, where seams are hard at its start.
+    int k = -1;
     for (int x = 0; x < texels_.width(); ++x) {
-      if (texels_.FaceAt(x, y) >= 0) chosen[x] = ChosenByAll(x, y);
+      const int in_cell = x % kCellTexels;
+      if (x == 0 || in_cell == 0 || in_cell == kCellTexels / 2) k = ChosenByAll(x, y);
+      if (texels_.FaceAt(x, y) >= 0) chosen[x] = k;
     }
   }
 

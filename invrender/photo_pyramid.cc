@@ -16,9 +16,15 @@
 namespace groundglass {
 namespace {
 
+// The largest whole number that is no larger; without SSE 4.1 std::floor is a long way round.
+inline int FloorToInt(double value) {
+  const int truncated = static_cast<int>(value);
+  return truncated - (value < truncated ? 1 : 0);
+}
+
 // Radiance of each code.
 template <typename Code>
-const float* RadianceTable() {
+inline const float* RadianceTable() {
   constexpr int kNumCodes = std::numeric_limits<Code>::max() + 1;
   static const std::vector<float> table = [] {
     std::vector<float> values(kNumCodes);
@@ -85,12 +91,12 @@ std::vector<Raster<Code>> MakeLevels(Raster<Code> full) {
 template <typename Code>
 Eigen::Array3f Bicubic(const Raster<Code>& level, double x, double y) {
   const float* radiance = RadianceTable<Code>();
-  const double fx = std::floor(x - 0.5);
-  const double fy = std::floor(y - 0.5);
+  const int fx = FloorToInt(x - 0.5);
+  const int fy = FloorToInt(y - 0.5);
   const std::array<float, 4> wx = CubicWeights(static_cast<float>(x - 0.5 - fx));
   const std::array<float, 4> wy = CubicWeights(static_cast<float>(y - 0.5 - fy));
-  const int x0 = static_cast<int>(fx) - 1;
-  const int y0 = static_cast<int>(fy) - 1;
+  const int x0 = fx - 1;
+  const int y0 = fy - 1;
   // Where the four columns start in a row, clamped at the frame.
   std::array<int, 4> columns;
   for (int i = 0; i < 4; ++i) columns[i] = 3 * std::clamp(x0 + i, 0, level.width - 1);
@@ -116,14 +122,14 @@ Eigen::Array3f Bicubic(const Raster<Code>& level, double x, double y) {
 template <typename Code>
 Eigen::Array3f Bilinear(const Raster<Code>& level, double x, double y) {
   const float* radiance = RadianceTable<Code>();
-  const double fx = std::floor(x - 0.5);
-  const double fy = std::floor(y - 0.5);
+  const int fx = FloorToInt(x - 0.5);
+  const int fy = FloorToInt(y - 0.5);
   const float tx = static_cast<float>(x - 0.5 - fx);
   const float ty = static_cast<float>(y - 0.5 - fy);
-  const int x0 = std::clamp(static_cast<int>(fx), 0, level.width - 1);
-  const int y0 = std::clamp(static_cast<int>(fy), 0, level.height - 1);
-  const int x1 = std::clamp(static_cast<int>(fx) + 1, 0, level.width - 1);
-  const int y1 = std::clamp(static_cast<int>(fy) + 1, 0, level.height - 1);
+  const int x0 = std::clamp(fx, 0, level.width - 1);
+  const int y0 = std::clamp(fy, 0, level.height - 1);
+  const int x1 = std::clamp(fx + 1, 0, level.width - 1);
+  const int y1 = std::clamp(fy + 1, 0, level.height - 1);
   const auto at = [&](int px, int py) {
     const Code* pixel = level.At(px, py);
     return Eigen::Array3f(radiance[pixel[0]], radiance[pixel[1]], radiance[pixel[2]]);
@@ -132,14 +138,24 @@ Eigen::Array3f Bilinear(const Raster<Code>& level, double x, double y) {
          ty * ((1 - tx) * at(x0, y1) + tx * at(x1, y1));
 }
 
+// px: footprints no longer than this take one tap.
+constexpr double kMostForOneTap = 1.25;
+
 template <typename Code>
 Eigen::Array3f SampleLevels(const std::vector<Raster<Code>>& levels,
                             const Eigen::Vector2d& image_px,
                             const Eigen::Matrix2d& px_from_texel,
                             int max_taps,
                             int num_dropped) {
-  double a = px_from_texel.col(0).norm();
-  double b = px_from_texel.col(1).norm();
+  double a = px_from_texel.col(0).squaredNorm();
+  double b = px_from_texel.col(1).squaredNorm();
+  // One tap of the finest level will do, as for most texels.
+  const double most = max_taps > 1 ? kMostForOneTap : 1;
+  if (num_dropped == 0 && std::max(a, b) <= most * most) {
+    return Bicubic(levels.front(), image_px.x(), image_px.y());
+  }
+  a = std::sqrt(a);
+  b = std::sqrt(b);
   // A level where both sides need at most max_taps taps; a long thin footprint keeps the level of
   // its short side as far as four times max_taps allow.
   const double longest = std::max(a, b);
@@ -152,8 +168,11 @@ Eigen::Array3f SampleLevels(const std::vector<Raster<Code>>& levels,
   }
   a *= scale;
   b *= scale;
-  const int num_a = std::clamp(static_cast<int>(std::ceil(a - 0.25)), 1, 4 * max_taps);
-  const int num_b = std::clamp(static_cast<int>(std::ceil(b - 0.25)), 1, 4 * max_taps);
+  const auto num_taps = [&](double length) {
+    return std::clamp(static_cast<int>(std::ceil(length - (kMostForOneTap - 1))), 1, 4 * max_taps);
+  };
+  const int num_a = num_taps(a);
+  const int num_b = num_taps(b);
   const Raster<Code>& pixels = levels[level];
   if (num_a * num_b == 1) return Bicubic(pixels, image_px.x() * scale, image_px.y() * scale);
   const bool few = num_a * num_b <= 4;
@@ -171,8 +190,16 @@ Eigen::Array3f SampleLevels(const std::vector<Raster<Code>>& levels,
 }  // namespace
 
 uint8_t Srgb8FromRadiance(float radiance) {
-  const float clamped = std::clamp(radiance, 0.0f, 1.0f);
-  return EncodeTable()[static_cast<int>(clamped * kEncodeSteps + 0.5f)];
+  uint8_t code = 0;
+  Srgb8FromRadiance({&radiance, 1}, &code);
+  return code;
+}
+
+void Srgb8FromRadiance(std::span<const float> radiance, uint8_t* srgb8) {
+  const uint8_t* codes = EncodeTable();
+  for (const float value : radiance) {
+    *srgb8++ = codes[static_cast<int>(std::clamp(value, 0.0f, 1.0f) * kEncodeSteps + 0.5f)];
+  }
 }
 
 float RadianceFromSrgb8(uint8_t srgb8) { return RadianceTable<uint8_t>()[srgb8]; }

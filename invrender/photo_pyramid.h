@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include <span>
 #include <vector>
 
 namespace groundglass {
@@ -42,6 +43,7 @@ class PhotoPyramid {
 
 // Radiance to 8-bit sRGB, rounded; values are clamped to [0, 1].
 uint8_t Srgb8FromRadiance(float radiance);
+void Srgb8FromRadiance(std::span<const float> radiance, uint8_t* srgb8);
 uint16_t Srgb16FromRadiance(float radiance);
 // 8-bit sRGB to radiance.
 float RadianceFromSrgb8(uint8_t srgb8);
