@@ -60,20 +60,25 @@ void ForEach(int count, int num_at_once, const std::function<void(int)>& work) {
   });
 }
 
-// Charts, side by side as far as `max_bytes` go.
+// Charts, side by side as far as `max_bytes` and, if these are limited, one band of ComposeChart
+// go.
 void ForEachChart(const std::vector<Chart>& charts,
                   const std::vector<ChartCells>& cells,
                   const BakeOptions& options,
                   size_t max_bytes,
                   const std::function<void(int)>& work) {
   const int count = static_cast<int>(charts.size());
+  const size_t max_texels = options.max_memory_mb > 0 ? kBandTexels : max_bytes;
   for (int first = 0; first < count;) {
     int end = first;
-    for (size_t num_bytes = 0; end < count; ++end) {
-      if (charts[end].page >= 0) {
-        num_bytes += ChartBytes(charts[end], cells[end].photos.size(), options);
-      }
-      if (num_bytes > max_bytes && end > first) break;
+    size_t num_bytes = 0;
+    size_t num_texels = 0;
+    for (; end < count; ++end) {
+      const Chart& chart = charts[end];
+      if (chart.page < 0) continue;
+      num_bytes += ChartBytes(chart, cells[end].photos.size(), options);
+      num_texels += static_cast<size_t>(chart.width_texels) * chart.height_texels;
+      if ((num_bytes > max_bytes || num_texels > max_texels) && end > first) break;
     }
     tbb::parallel_for(first, end, work);
     first = end;

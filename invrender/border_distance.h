@@ -18,9 +18,9 @@ constexpr double kBorderStepsPerPx = 8;
 // Distances end here (steps).
 constexpr int kFarthestBorder = 230;
 
-// For each pixel the distance (eighths of a pixel, at most kFarthestBorder) from its centre to the nearest
-// border of the face mask where another chart begins, and to the nearest ignored pixel (non-zero
-// in `ignored`, which may be empty); ignored pixels and those without a face are 0.
+// For each pixel the distance (eighths of a pixel, at most kFarthestBorder) from its centre to the
+// nearest border of the face mask where another chart begins, and to the nearest ignored pixel
+// (non-zero in `ignored`, which may be empty); ignored pixels and those without a face are 0.
 // crease_bonus_px: kCreaseBonusPx in the mask's pixels, where these are longer than the
 // photograph's.
 Image8 ComputeBorderDistance(const PolygonModel& model,

@@ -68,7 +68,6 @@ ChartPixels ComposeChart(const Chart& chart,
                          const ChartChoice& choice,
                          const ColourModel& colour,
                          const BakeOptions& options) {
-  constexpr int kBandTexels = 1 << 20;
   const int width = chart.width_texels;
   const int height = chart.height_texels;
   ChartPixels pixels;

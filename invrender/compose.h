@@ -12,6 +12,9 @@
 
 namespace groundglass {
 
+// ComposeChart looks texels up in bands of so many, or of a few rows.
+constexpr int kBandTexels = 1 << 20;
+
 // What is known of a texel.
 enum class TexelState : uint8_t {
   kOutside,  // no face there

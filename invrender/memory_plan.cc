@@ -28,7 +28,6 @@ constexpr double kPhotoShare = 0.3;
 constexpr double kFewPhotos = 3;
 // A band of a chart's texels with their look-ups.
 constexpr double kBandBytes = 80 * kMegabyte;
-constexpr double kDecodedAtOnce = 2;
 // Texels this much longer are no texture any more.
 constexpr double kLargestScale = 8;
 

@@ -6,12 +6,32 @@
 
 #include <tbb/task_arena.h>
 
+#include <cstdint>
 #include <utility>
 
 namespace groundglass {
+namespace {
+
+// One of the places for those who decode, held until the end of the scope.
+class DecoderPlace {
+ public:
+  explicit DecoderPlace(std::counting_semaphore<kDecodedAtOnce>* places) : places_(places) {
+    if (places_) places_->acquire();
+  }
+  ~DecoderPlace() {
+    if (places_) places_->release();
+  }
+  DecoderPlace(const DecoderPlace&) = delete;
+  DecoderPlace& operator=(const DecoderPlace&) = delete;
+
+ private:
+  std::counting_semaphore<kDecodedAtOnce>* places_;
+};
+
+}  // namespace
 
 PhotoCache::PhotoCache(std::vector<std::filesystem::path> files, size_t max_bytes, int bits)
-    : max_bytes_(max_bytes), bits_(bits) {
+    : is_limited_(max_bytes != SIZE_MAX), max_bytes_(max_bytes), bits_(bits) {
   for (std::filesystem::path& file : files) {
     entries_.push_back(std::make_unique<Entry>());
     entries_.back()->file = std::move(file);
@@ -30,6 +50,7 @@ std::shared_ptr<const PhotoPyramid> PhotoCache::Get(
   const std::lock_guard<std::mutex> decoding(entry.decoding);
   if (auto pyramid = find()) return pyramid;
   std::shared_ptr<PhotoPyramid> pyramid;
+  const DecoderPlace place(is_limited_ ? &decoders_ : nullptr);
   // Isolated: this thread must not take up other work that waits for the same photograph.
   tbb::this_task_arena::isolate([&] {
     pyramid = bits_ == 16 ? std::make_shared<PhotoPyramid>(ReadSrgb16(entry.file))

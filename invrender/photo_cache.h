@@ -10,16 +10,20 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <semaphore>
 #include <vector>
 
 namespace groundglass {
 
+constexpr int kDecodedAtOnce = 2;
+
 // Decoded photographs, no more of them than fit into `max_bytes`; those that were not used for the
 // longest go first, and come back from their files when they are asked for. One that somebody
-// still holds stays in memory until it is let go. Safe to use from many threads.
+// still holds stays in memory until it is let go. Safe to use from many threads; where there is a
+// limit, kDecodedAtOnce at most are being decoded.
 class PhotoCache {
  public:
-  // bits: 8 or 16, of the decoded photographs' channels.
+  // max_bytes: SIZE_MAX for no limit; bits: 8 or 16, of the decoded photographs' channels.
   PhotoCache(std::vector<std::filesystem::path> files, size_t max_bytes, int bits = 8);
 
   // Throws Error for a file that cannot be read. on_whole gets the photograph with all its levels
@@ -45,7 +49,9 @@ class PhotoCache {
     std::list<int>::iterator use;                 // in uses_, if there is a pyramid
   };
 
+  std::counting_semaphore<kDecodedAtOnce> decoders_{kDecodedAtOnce};
   mutable std::mutex mutex_;
+  const bool is_limited_;
   size_t max_bytes_;
   const int bits_;
   int num_dropped_ = 0;

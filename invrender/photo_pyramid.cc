@@ -100,20 +100,19 @@ Eigen::Array3f Bicubic(const Raster<Code>& level, double x, double y) {
   // Where the four columns start in a row, clamped at the frame.
   std::array<int, 4> columns;
   for (int i = 0; i < 4; ++i) columns[i] = 3 * std::clamp(x0 + i, 0, level.width - 1);
-  // All twelve values of a row at a time, which compilers turn into vector instructions.
-  std::array<float, 12> weights;
-  for (int i = 0; i < 12; ++i) weights[i] = wx[i / 3];
-  std::array<float, 12> sums = {};
-  for (int j = 0; j < 4; ++j) {
-    const Code* row = level.At(0, std::clamp(y0 + j, 0, level.height - 1));
-    std::array<float, 12> values;
-    for (int i = 0; i < 4; ++i) {
-      const Code* pixel = row + columns[i];
-      for (int c = 0; c < 3; ++c) values[3 * i + c] = radiance[pixel[c]];
+  const Code* rows[4];
+  for (int j = 0; j < 4; ++j) rows[j] = level.At(0, std::clamp(y0 + j, 0, level.height - 1));
+  std::array<float, 12> sums;
+  for (int i = 0; i < 4; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const int at = columns[i] + c;
+      float sum = wy[0] * radiance[rows[0][at]];
+      sum += wy[1] * radiance[rows[1][at]];
+      sum += wy[2] * radiance[rows[2][at]];
+      sum += wy[3] * radiance[rows[3][at]];
+      sums[3 * i + c] = sum * wx[i];
     }
-    for (int i = 0; i < 12; ++i) sums[i] += wy[j] * values[i];
   }
-  for (int i = 0; i < 12; ++i) sums[i] *= weights[i];
   std::array<float, 3> sum;
   for (int c = 0; c < 3; ++c) sum[c] = (sums[c] + sums[3 + c]) + (sums[6 + c] + sums[9 + c]);
   return {std::max(sum[0], 0.0f), std::max(sum[1], 0.0f), std::max(sum[2], 0.0f)};

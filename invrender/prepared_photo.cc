@@ -146,14 +146,15 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
   const double farthest_px =
       std::max((border_margin_px_ + kTrustedFrom - 0.5) / mask_side_ + 0.5, 3 + crease_bonus_px_) +
       1;
-  sight_map_ = SightMap(labels,
-                        ComputeBorderDistance(model,
-                                              CoarserCamera(camera_, mask_side_),
-                                              labels,
-                                              chart_of_face,
-                                              ignored,
-                                              crease_bonus_px_),
-                        std::min(kFarthestBorder, static_cast<int>(farthest_px * kBorderStepsPerPx)));
+  sight_map_ =
+      SightMap(labels,
+               ComputeBorderDistance(model,
+                                     CoarserCamera(camera_, mask_side_),
+                                     labels,
+                                     chart_of_face,
+                                     ignored,
+                                     crease_bonus_px_),
+               std::min(kFarthestBorder, static_cast<int>(farthest_px * kBorderStepsPerPx)));
   is_shown_ = sight_map_.ShownFaces(model.faces.size());
 }
 

@@ -6,10 +6,48 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <memory>
+#include <mutex>
 #include <new>
 #include <vector>
 
 namespace groundglass {
+
+namespace {
+
+// Embree holds all of TBB to the most threads that any of its devices asks for, as long as they
+// live. Ours ask for one, since the BVH's layout must not depend on how many there are; once one is
+// built, a device without a scene asks for all, so that the rest of the program may use them.
+class ThreadLimit {
+ public:
+  // While one is built: one thread.
+  static std::unique_lock<std::mutex> Lower() {
+    std::unique_lock<std::mutex> lock(Mutex());
+    if (Lifter()) rtcReleaseDevice(Lifter());
+    Lifter() = nullptr;
+    return lock;
+  }
+  static void Lift(const std::unique_lock<std::mutex>&, int num_built) {
+    NumBuilt() += num_built;
+    if (NumBuilt() > 0) Lifter() = rtcNewDevice(nullptr);
+  }
+
+ private:
+  static std::mutex& Mutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  static RTCDevice& Lifter() {
+    static RTCDevice lifter = nullptr;
+    return lifter;
+  }
+  static int& NumBuilt() {
+    static int num_built = 0;
+    return num_built;
+  }
+};
+
+}  // namespace
 
 struct Visibility::Impl {
   RTCDevice device = nullptr;
@@ -17,21 +55,18 @@ struct Visibility::Impl {
   std::vector<int> face_of_triangle;
   Box bounds;
 
+  bool is_built = false;
+
   ~Impl() {
+    const auto lock = ThreadLimit::Lower();
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
+    ThreadLimit::Lift(lock, is_built ? -1 : 0);
   }
 };
 
 Visibility::Visibility(const PolygonModel& model) : impl_(std::make_unique<Impl>()) {
   impl_->bounds = ComputeBounds(model);
-  // One thread: the BVH's layout must not depend on how many there are.
-  impl_->device = rtcNewDevice("threads=1");
-  if (!impl_->device) throw std::bad_alloc();
-  impl_->scene = rtcNewScene(impl_->device);
-  // Watertight along shared edges, so that no ray slips between two walls.
-  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-
   std::vector<std::array<int, 3>> triangles;
   for (int face = 0; face < static_cast<int>(model.faces.size()); ++face) {
     for (const std::array<int, 3>& triangle : TriangulateFace(model, face)) {
@@ -39,6 +74,12 @@ Visibility::Visibility(const PolygonModel& model) : impl_(std::make_unique<Impl>
       impl_->face_of_triangle.push_back(face);
     }
   }
+  const auto lock = ThreadLimit::Lower();
+  impl_->device = rtcNewDevice("threads=1");
+  if (!impl_->device) throw std::bad_alloc();
+  impl_->scene = rtcNewScene(impl_->device);
+  // Watertight along shared edges, so that no ray slips between two walls.
+  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   if (!triangles.empty()) {
     RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
@@ -69,6 +110,8 @@ Visibility::Visibility(const PolygonModel& model) : impl_(std::make_unique<Impl>
     rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(impl_->scene);
+  impl_->is_built = true;
+  ThreadLimit::Lift(lock, 1);
 }
 
 Visibility::~Visibility() = default;

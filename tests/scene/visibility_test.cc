@@ -5,6 +5,7 @@
 #include "scene/view_tag.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 namespace groundglass {
 namespace {
@@ -28,6 +29,23 @@ TEST(Visibility, TheFirstFaceAlongARayAndItsDistance) {
   EXPECT_EQ(visibility.FirstHit({0.3, -5, 1}, {0, 1, 0}, 6)->face, 1);
   EXPECT_FALSE(visibility.FirstHit({0.3, -5, 1}, {0, 1, 0}, 0, 4.9));
   EXPECT_FALSE(visibility.FirstHit({0.3, -5, 1}, {0, -1, 0}));
+}
+
+TEST(Visibility, LeavesAllCoresToTheRestOfTheProgram) {
+  const auto num_threads = [] {
+    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  };
+  const size_t before = num_threads();
+  {
+    const Visibility first(TwoWalls());
+    EXPECT_EQ(num_threads(), before);
+    {
+      const Visibility second(TwoWalls());
+      EXPECT_EQ(num_threads(), before);
+    }
+    EXPECT_EQ(num_threads(), before);
+  }
+  EXPECT_EQ(num_threads(), before);
 }
 
 TEST(Visibility, AFaceSeenFromBehindIsItsBackAndHidesAllTheSame) {
