@@ -45,7 +45,7 @@ struct BakeOptions {
   // Pixels nearer than this to the frame's edge are never used, as a fraction of its width.
   double frame_margin = 0.004;
   // At most this much memory for the whole program, millions of bytes; 0: no limit. Photographs are
-  // decoded again when they are needed again, charts are done one after the other, and where even
+  // decoded again when they are needed again, charts are done a few at a time, and where even
   // the pages are too large, texels become larger (BakeResult::texel_scale).
   int max_memory_mb = 0;
 
