@@ -134,10 +134,10 @@ void WriteTilesIfAsked(const BakeArguments& arguments,
   }
 }
 
-void KeepFreedMemory(const BakeArguments& arguments) {
-  if (arguments.options.max_memory_mb > 0) return;
-  mallopt(M_MMAP_THRESHOLD, 64 << 20);
-  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+void TuneFreedMemory(const BakeArguments& arguments) {
+  const bool is_limited = arguments.options.max_memory_mb > 0;
+  mallopt(M_MMAP_THRESHOLD, is_limited ? 1 << 20 : 64 << 20);
+  mallopt(M_TRIM_THRESHOLD, is_limited ? 1 << 20 : 256 << 20);
 }
 
 void NarrowPhotographs(const BakeArguments& arguments,

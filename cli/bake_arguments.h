@@ -39,9 +39,9 @@ void AddBakeArguments(CLI::App* command,
                       BakeArguments& arguments,
                       const std::string& only_option = "--only-faces");
 
-// Without --memory, memory that is freed stays with the program for what it needs next: pictures
-// come and go, and the system would clear their pages each time.
-void KeepFreedMemory(const BakeArguments& arguments);
+// Pictures come and go. Without --memory, what they took stays with the program for what it needs
+// next, since the system would clear the pages each time; with it, it goes back to the system.
+void TuneFreedMemory(const BakeArguments& arguments);
 
 // Takes --exclude, --masks, --only and the scene's pairs.csv into account.
 void NarrowPhotographs(const BakeArguments& arguments,

@@ -136,7 +136,7 @@ int RunInvrender(const InvrenderArguments& arguments) {
   }
   PrepareOutputFolder(arguments.out_folder);
   WriteManifest(arguments.out_folder, Describe(arguments, scene, photographs));
-  KeepFreedMemory(arguments.bake);
+  TuneFreedMemory(arguments.bake);
   BakeOptions options = arguments.bake.Options();
   options.on_face_mask = FaceMaskWriter(arguments.out_folder);
   if (arguments.earlier_model_file) {

@@ -101,7 +101,7 @@ int Run(const RunArguments& arguments) {
     std::fprintf(stderr,
                  "groundglass: no photograph could be registered, so nothing is textured\n");
   } else if (!std::filesystem::exists(out / "coverage.json")) {
-    KeepFreedMemory(arguments.baking);
+    TuneFreedMemory(arguments.baking);
     BakeOptions options = arguments.baking.Options();
     options.on_face_mask = FaceMaskWriter(out);
     const BakeResult bake =
