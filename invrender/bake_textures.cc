@@ -8,11 +8,14 @@
 #include "invrender/dilate.h"
 #include "invrender/earlier_model.h"
 #include "invrender/fill.h"
+#include "invrender/fine_detail.h"
+#include "invrender/grain.h"
 #include "invrender/invrender.h"
 #include "invrender/memory_plan.h"
 #include "invrender/missing.h"
 #include "invrender/packing.h"
 #include "invrender/prepared_photo.h"
+#include "invrender/sharpness.h"
 #include "invrender/texel_size.h"
 #include "scene/error.h"
 #include "scene/scene_folder.h"
@@ -320,6 +323,13 @@ BakeResult BakeTextures(const PolygonModel& model,
 
   // Settle colour and choice on cells.
   const std::vector<ChartCells> cells = ObserveCells(model, charts, photos);
+  std::vector<Sharpness> sharpness;
+  Grain grain;
+  if (options.judge_sharpness || options.smooth_grain) {
+    const std::vector<Spot> spots = LookAtSpots(model, charts, photos);
+    if (options.judge_sharpness) sharpness = MeasureSharpness(spots, photos.size());
+    if (options.smooth_grain) grain = MeasureGrain(spots, charts.size(), photos.size());
+  }
   steps.Tell("compared the photographs");
   // Occluders are told from exposure even where the pages keep the photographs' own exposures.
   const ColourModel neutral = MakeNeutralColour(cells, photos.size());
@@ -335,9 +345,10 @@ BakeResult BakeTextures(const PolygonModel& model,
     const Chart& chart = charts[i];
     if (chart.page >= 0) {
       const ChartTexels texels(model, chart);
-      const ChartChoice choice = ChooseCells(cells[i], i, matched, options);
+      const ChartChoice choice = ChooseCells(cells[i], i, matched, sharpness, options);
       ChartPixels pixels =
           ComposeChart(chart, i, texels, photos, cells[i], choice, printed, options);
+      if (options.smooth_grain) SmoothGrain(chart, i, cells[i], printed, grain, pixels);
       SpreadIntoWeakTexels(pixels);
       CloseSlits(pixels);
       // Faces and pages' rectangles of different charts do not overlap: no lock.

@@ -222,11 +222,28 @@ std::vector<float> MeasureDissent(const ChartCells& cells, int chart, const Colo
   return dissent;
 }
 
+// Lowers the acceptance of blurred photographs where three or more look: of two, one may show an
+// occluder, and a blurred wall is better than a sharp van.
+void PreferSharp(const ChartCells& cells,
+                 int cell,
+                 const std::vector<Sharpness>& sharpness,
+                 float* acceptance) {
+  const size_t num_photos = cells.photos.size();
+  const CellView* views = cells.ViewsOf(cell);
+  const auto num_seeing = std::count_if(
+      views, views + num_photos, [](const CellView& view) { return view.quality > 0; });
+  if (num_seeing < 3) return;
+  for (size_t k = 0; k < num_photos; ++k) {
+    acceptance[k] *= static_cast<float>(sharpness[cells.photos[k]].factor);
+  }
+}
+
 }  // namespace
 
 ChartChoice ChooseCells(const ChartCells& cells,
                         int chart,
                         const ColourModel& colour,
+                        const std::vector<Sharpness>& sharpness,
                         const BakeOptions& options) {
   const size_t num_photos = cells.photos.size();
   ChartChoice choice;
@@ -242,6 +259,8 @@ ChartChoice ChooseCells(const ChartCells& cells,
   }
   for (int cell = 0; cell < cells.NumCells(); ++cell) {
     const CellView* views = cells.ViewsOf(cell);
+    if (!sharpness.empty())
+      PreferSharp(cells, cell, sharpness, &choice.acceptance[cell * num_photos]);
     float best = 0;
     for (size_t k = 0; k < num_photos; ++k) {
       const float score = views[k].quality * choice.acceptance[cell * num_photos + k];

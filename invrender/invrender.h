@@ -57,6 +57,10 @@ struct BakeOptions {
   bool match_colour = true;
   // Keeps out what differs from what most photographs show: trees, cars, cast shadows.
   bool reject_occluders = true;
+  // Measures how blurred each photograph is, so that sharper ones are preferred.
+  bool judge_sharpness = true;
+  // Measures each photograph's film grain, and lowers it where nothing finer is to be seen.
+  bool smooth_grain = true;
   // Blends photographs in a band along seams, and moves seams to where they do not show.
   bool smooth_seams = true;
   // Paints over what no photograph shows, from what lies around it; provenance says so.

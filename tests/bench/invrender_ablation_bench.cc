@@ -32,6 +32,10 @@ std::vector<Variant> MakeVariants() {
   variants.push_back({"neither", {}});
   variants.back().options.match_colour = false;
   variants.back().options.reject_occluders = false;
+  variants.push_back({"all photographs as sharp", {}});
+  variants.back().options.judge_sharpness = false;
+  variants.push_back({"grain", {}});
+  variants.back().options.smooth_grain = false;
   variants.push_back({"hard seams where they fall", {}});
   variants.back().options.smooth_seams = false;
   variants.push_back({"no margin at borders", {}});
