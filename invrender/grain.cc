@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "invrender/grain.h"
 
+#include <opencv2/imgproc.hpp>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -13,77 +14,30 @@
 namespace groundglass {
 namespace {
 
-constexpr std::array<float, 5> kBinomial = {1 / 16.0f, 4 / 16.0f, 6 / 16.0f, 4 / 16.0f, 1 / 16.0f};
+using Plane = cv::Mat_<float>;
 
-// A plane of floats whose rows go on beyond its ends.
-class Plane {
- public:
-  Plane(int width, int height)
-      : width_(width), height_(height), values_(static_cast<size_t>(width) * height) {}
-  int width() const { return width_; }
-  int height() const { return height_; }
-  float* Row(int y) {
-    return &values_[static_cast<size_t>(std::clamp(y, 0, height_ - 1)) * width_];
-  }
-  const float* Row(int y) const { return const_cast<Plane*>(this)->Row(y); }
-
- private:
-  int width_;
-  int height_;
-  std::vector<float> values_;
-};
-
-// `out` = `in`, smoothed by the binomial over samples `step` apart, both ways; `rows` is room to
-// work in. `in` and `out` may be the same.
-void Smooth(const Plane& in, int step, Plane& rows, Plane& out) {
-  const int width = in.width();
-  for (int y = 0; y < in.height(); ++y) {
-    std::array<const float*, 5> from;
-    for (int i = 0; i < 5; ++i) from[i] = in.Row(y + (i - 2) * step);
-    float* to = rows.Row(y);
-    for (int x = 0; x < width; ++x) {
-      to[x] = kBinomial[0] * (from[0][x] + from[4][x]) + kBinomial[1] * (from[1][x] + from[3][x]) +
-              kBinomial[2] * from[2][x];
-    }
-  }
-  const int margin = std::min(width, 2 * step);
-  for (int y = 0; y < in.height(); ++y) {
-    const float* from = rows.Row(y);
-    float* to = out.Row(y);
-    const auto at_end = [&](int x) {
-      to[x] = 0;
-      for (int i = 0; i < 5; ++i) {
-        to[x] += kBinomial[i] * from[std::clamp(x + (i - 2) * step, 0, width - 1)];
-      }
-    };
-    for (int x = 0; x < margin; ++x) at_end(x);
-    for (int x = margin; x < width - margin; ++x) {
-      to[x] = kBinomial[0] * (from[x - 2 * step] + from[x + 2 * step]) +
-              kBinomial[1] * (from[x - step] + from[x + step]) + kBinomial[2] * from[x];
-    }
-    for (int x = std::max(margin, width - margin); x < width; ++x) at_end(x);
-  }
+// Smoothed by the binomial (1 4 6 4 1) / 16 over samples `step` apart, both ways.
+Plane Smoothed(const Plane& in, int step) {
+  cv::Mat_<float> taps = cv::Mat_<float>::zeros(4 * step + 1, 1);
+  constexpr std::array<float, 5> kBinomial = {1, 4, 6, 4, 1};
+  for (int i = 0; i < 5; ++i) taps(i * step) = kBinomial[i] / 16;
+  Plane out;
+  cv::sepFilter2D(in, out, CV_32F, taps, taps, {-1, -1}, 0, cv::BORDER_REPLICATE);
+  return out;
 }
 
-// bands[0] + bands[1] + what is left in `coarse` is `in`.
+// bands[0] + bands[1] + what is left in `coarse` is what was split.
 struct Bands {
   std::array<Plane, kGrainBands> bands;
   Plane coarse;
 };
 
-Bands SplitBands(Plane in) {
-  Bands split{{Plane(in.width(), in.height()), Plane(in.width(), in.height())}, std::move(in)};
-  Plane rows(split.coarse.width(), split.coarse.height());
+Bands SplitBands(const Plane& in) {
+  Bands split{{}, in};
   for (int b = 0; b < kGrainBands; ++b) {
-    Plane smooth(rows.width(), rows.height());
-    Smooth(split.coarse, 1 << b, rows, smooth);
-    for (int y = 0; y < rows.height(); ++y) {
-      const float* fine = split.coarse.Row(y);
-      const float* coarse = smooth.Row(y);
-      float* band = split.bands[b].Row(y);
-      for (int x = 0; x < rows.width(); ++x) band[x] = fine[x] - coarse[x];
-    }
-    split.coarse = std::move(smooth);
+    const Plane smooth = Smoothed(split.coarse, 1 << b);
+    split.bands[b] = split.coarse - smooth;
+    split.coarse = smooth;
   }
   return split;
 }
@@ -105,14 +59,14 @@ SpotBands SplitSpot(const SpotView& view) {
   SpotBands spot;
   spot.photo = view.photo;
   for (int y = 0; y < kSpotSide; ++y) {
-    for (int x = 0; x < kSpotSide; ++x) luma.Row(y)[x] = view.luma(y, x) / 65535.0f;
+    for (int x = 0; x < kSpotSide; ++x) luma(y, x) = view.luma(y, x) / 65535.0f;
   }
   spot.mean = view.luma.cast<float>().mean() / 65535.0f;
-  const Bands split = SplitBands(std::move(luma));
+  const Bands split = SplitBands(luma);
   for (int b = 0; b < kGrainBands; ++b) {
     for (int y = 0; y < kInner; ++y) {
       for (int x = 0; x < kInner; ++x) {
-        spot.bands[b](y, x) = split.bands[b].Row(y + kReach)[x + kReach];
+        spot.bands[b](y, x) = split.bands[b](y + kReach, x + kReach);
       }
     }
   }
@@ -253,23 +207,16 @@ void Smooth(const std::vector<std::array<float, kGrainBands>>& variances,
     const int y1 = std::min(srgb.height, y0 + kBandRows);
     const int top = std::max(0, y0 - kReachRows);
     const int bottom = std::min(srgb.height, y1 + kReachRows);
-    Plane in(width, bottom - top);
+    Plane in(bottom - top, width);
     for (int y = top; y < bottom; ++y) {
-      std::transform(luma.At(0, y), luma.At(0, y) + width, in.Row(y - top), [](uint16_t value) {
+      std::transform(luma.At(0, y), luma.At(0, y) + width, in[y - top], [](uint16_t value) {
         return value / 256.0f;
       });
     }
-    const Bands split = SplitBands(std::move(in));
-    Plane rows(width, bottom - top);
-    std::vector<Plane> energies;
+    const Bands split = SplitBands(in);
+    std::array<Plane, kGrainBands> energies;
     for (int b = 0; b < kGrainBands; ++b) {
-      Plane& energy = energies.emplace_back(width, bottom - top);
-      for (int y = 0; y < energy.height(); ++y) {
-        const float* band = split.bands[b].Row(y);
-        std::transform(
-            band, band + width, energy.Row(y), [](float value) { return value * value; });
-      }
-      Smooth(energy, 1 << b, rows, energy);
+      energies[b] = Smoothed(split.bands[b].mul(split.bands[b]), 1 << b);
     }
     for (int y = y0; y < y1; ++y) {
       const uint16_t* source = provenance.At(0, y);
@@ -277,9 +224,8 @@ void Smooth(const std::vector<std::array<float, kGrainBands>>& variances,
       for (int x = 0; x < width; ++x, codes += 3) {
         float grain = 0;
         for (int b = 0; b < kGrainBands; ++b) {
-          const float energy = energies[b].Row(y - top)[x] + 1e-3f;
-          grain +=
-              std::min(1.0f, variances[source[x]][b] / energy) * split.bands[b].Row(y - top)[x];
+          const float energy = energies[b](y - top, x) + 1e-3f;
+          grain += std::min(1.0f, variances[source[x]][b] / energy) * split.bands[b](y - top, x);
         }
         grain *= kLargest / 255;
         for (int c = 0; c < 3; ++c) {
