@@ -64,33 +64,32 @@ void FindViews(const std::vector<Chart>& charts,
   const auto in_camera = [&](int photo) {
     return photos[photo].View(charts[spot.chart], spot.chart);
   };
+  std::vector<SpotView> views;  // of hundreds of photographs, so that the spot keeps a few only
   for (int photo = 0; photo < static_cast<int>(photos.size()); ++photo) {
     const auto sighting = photos[photo].Sight(in_camera(photo), middle, spot.face);
     if (!sighting || sighting->border_px < kClearPx) continue;
     const double px_per_unit = std::sqrt(std::abs(sighting->px_from_unit.determinant()));
     if (!(px_per_unit > 0)) continue;
-    SpotView& view = spot.views.emplace_back();
+    SpotView& view = views.emplace_back();
     view.photo = photo;
     view.px_per_unit = px_per_unit;
     view.step_from_px = px_per_unit * sighting->px_from_unit.inverse();
   }
-  if (spot.views.size() < 2) {
-    spot.views.clear();
-    return;
-  }
-  std::stable_sort(spot.views.begin(), spot.views.end(), [](const auto& a, const auto& b) {
+  if (views.size() < 2) return;
+  std::stable_sort(views.begin(), views.end(), [](const auto& a, const auto& b) {
     return a.px_per_unit > b.px_per_unit;
   });
-  const double best = spot.views.front().px_per_unit;
+  const double best = views.front().px_per_unit;
   spot.step = 1 / best;
   spot.corner_in_plane = middle - Eigen::Vector2d::Constant(spot.step * (kSpotSide - 1) / 2);
-  for (SpotView& view : spot.views) view.step_from_px *= best / view.px_per_unit;
-  std::erase_if(spot.views, [&](const SpotView& view) {
+  for (SpotView& view : views) view.step_from_px *= best / view.px_per_unit;
+  std::erase_if(views, [&](const SpotView& view) {
     return view.px_per_unit * kCoarsest < best ||
            !ShowsWhole(photos[view.photo], in_camera(view.photo), spot);
   });
-  if (spot.views.size() > kMostViews) spot.views.resize(kMostViews);
-  if (spot.views.size() < 2) spot.views.clear();
+  if (views.size() < 2) return;
+  if (views.size() > kMostViews) views.resize(kMostViews);
+  spot.views.assign(views.begin(), views.end());
 }
 
 SpotSamples LookAtSpot(const Chart& chart,
