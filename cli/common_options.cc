@@ -24,10 +24,10 @@ void AddCommonOptions(CLI::App* command, CommonOptions& options) {
       ->add_option_function<std::string>(
           "--unit",
           [&options](const std::string& unit) {
-            options.unit = unit == "m" ? LengthUnit::kMetre : LengthUnit::kFoot;
+            options.unit = FindUnit(unit);
           },
           "the model's unit, over what its file says")
-      ->check(CLI::IsMember({"ft", "m"}));
+      ->check(CLI::IsMember({"ft", "m", "mm", "cm", "in", "us-ft"}));
 }
 
 int RunWithThreads(const CommonOptions& options, const std::function<int()>& work) {

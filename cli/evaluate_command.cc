@@ -49,10 +49,6 @@ std::string SceneName(const fs::path& folder) {
   return whole.parent_path().filename().string();
 }
 
-const char* UnitName(const PolygonModel& model) {
-  return model.unit == LengthUnit::kFoot ? "ft" : "m";
-}
-
 int EvaluateFound(const EvaluateArguments& arguments) {
   const Truth truth = ReadTruth(arguments.truth);
   ModelOptions model_options;
@@ -72,7 +68,7 @@ int EvaluateFound(const EvaluateArguments& arguments) {
   if (!arguments.plot_file.empty()) {
     WriteFileAtomically(
         arguments.plot_file,
-        FormatErrorPlot(PlotPointsOf(evaluation), "Errors of " + arguments.found, UnitName(model)));
+        FormatErrorPlot(PlotPointsOf(evaluation), "Errors of " + arguments.found, UnitName(model.unit)));
   }
   std::fputs(arguments.common.json ? FormatEvaluationJson(evaluation, model).c_str()
                                    : FormatEvaluationTable(evaluation, model).c_str(),
@@ -94,7 +90,7 @@ int RunTrialsOfScene(const EvaluateArguments& arguments) {
     WriteFileAtomically(arguments.plot_file,
                         FormatErrorPlot(PlotPointsOf(trials),
                                         "Trials of " + arguments.found + ", px at 640 wide",
-                                        UnitName(scene.model)));
+                                        UnitName(scene.model.unit)));
   }
   if (!arguments.calibration_file.empty()) {
     std::vector<CalibrationCurve> curves = {CalibrationCurveOf(SceneName(arguments.found), trials)};

@@ -158,7 +158,7 @@ Manifest DescribeInputs(const std::string& command,
     if (std::filesystem::exists(scene.folder / table)) add(scene.folder / table);
   }
   const PriorOptions& prior = arguments.options.prior;
-  manifest.options["unit"] = scene.model.unit == LengthUnit::kFoot ? "ft" : "m";
+  manifest.options["unit"] = UnitName(scene.model.unit);
   manifest.options["sigma-position"] = FormatSigma(prior.position_m);
   manifest.options["sigma-height"] = FormatSigma(prior.height_m);
   manifest.options["sigma-lookat"] = FormatSigma(prior.lookat_m);
@@ -240,7 +240,7 @@ void PrintRegistrations(const std::vector<Registration>& registrations) {
 
 void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit unit) {
   if (model_errors.empty()) return;
-  const char* unit_name = unit == LengthUnit::kFoot ? "ft" : "m";
+  const std::string unit_name = UnitName(unit);
   std::printf(
       "\nThe photographs see these lines of the model elsewhere (x east, y south, z up):\n");
   for (const ModelError& error : model_errors) {
@@ -250,7 +250,7 @@ void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit un
                 offset_in_site.x(),
                 offset_in_site.y(),
                 offset_in_site.z(),
-                unit_name,
+                unit_name.c_str(),
                 error.sigma,
                 error.num_photographs);
   }

@@ -90,12 +90,12 @@ nlohmann::ordered_json JsonFromParameters(const CameraParameters& parameters) {
 }  // namespace
 
 std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonModel& model) {
-  const char* unit = model.unit == LengthUnit::kFoot ? "ft" : "m";
+  const std::string unit = UnitName(model.unit);
   std::string text = Printed("%-10s %9s %9s %16s %16s %16s %16s %18s  %s\n",
                              "photograph",
                              "vertex px",
                              "max px",
-                             Printed("position %s", unit).c_str(),
+                             Printed("position %s", unit.c_str()).c_str(),
                              "direction deg",
                              "roll deg",
                              "v deg",
@@ -197,7 +197,7 @@ std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonMod
 
 std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonModel& model) {
   nlohmann::ordered_json json;
-  json["unit"] = model.unit == LengthUnit::kFoot ? "ft" : "m";
+  json["unit"] = UnitName(model.unit);
   json["photographs"] = nlohmann::ordered_json::array();
   for (const PhotographEvaluation& photograph : evaluation.photographs) {
     nlohmann::ordered_json entry;

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "invrender/missing.h"
 
+#include "scene/frames.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +14,7 @@ std::optional<Eigen::Vector3d> FindStand(const PolygonModel& model,
                                          int face,
                                          const Eigen::Vector3d& target_in_world) {
   constexpr double kEyeLevelFt = 5.5;
-  constexpr double kFeetPerMetre = 1 / 0.3048;
-  const double eye = kEyeLevelFt / (model.unit == LengthUnit::kMetre ? kFeetPerMetre : 1);
+  const double eye = kEyeLevelFt * kMetresPerFoot / MetresPerUnit(model.unit);
   double lowest = 1e300;
   for (const Eigen::Vector3d& point : model.points_in_world) lowest = std::min(lowest, point.z());
   double size = 0;

@@ -23,6 +23,9 @@ struct Camera {
   double center_y_px = 0;
   double k1 = 0;
   double k2 = 0;
+  double k3 = 0;
+  double p1 = 0;
+  double p2 = 0;
   RigidTransform cam_from_world;
 
   Eigen::Vector3d PositionInWorld() const {

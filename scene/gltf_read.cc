@@ -97,7 +97,7 @@ class GltfReader {
     const tinygltf::Value& notes = gltf_.asset.extras;
     if (notes.IsObject() && notes.Has("groundglass_unit")) {
       const tinygltf::Value& unit = notes.Get("groundglass_unit");
-      if (unit.IsString() && unit.Get<std::string>() == "ft") model.unit = LengthUnit::kFoot;
+      if (unit.IsString()) model.unit = FindUnit(unit.Get<std::string>()).value_or(model.unit);
     }
     if (notes.IsObject() && notes.Has("groundglass_origin")) {
       const tinygltf::Value& origin = notes.Get("groundglass_origin");

@@ -70,7 +70,7 @@ class GlbWriter {
     tinygltf::Value::Object notes;
     const PolygonModel& model = textured_.model;
     notes["groundglass_unit"] =
-        tinygltf::Value(std::string(model.unit == LengthUnit::kFoot ? "ft" : "m"));
+        tinygltf::Value(UnitName(model.unit));
     if (model.georeference) {
       const Georeference& place = *model.georeference;
       notes["groundglass_origin"] =

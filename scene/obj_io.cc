@@ -88,9 +88,8 @@ ObjReading ReadObj(const std::filesystem::path& file) {
   std::string material;
   for (const TextLine& line : SplitLines(text, '#')) {
     if (line.has_comment && LowerCase(line.comment.substr(0, 5)) == "unit:") {
-      const std::string unit = LowerCase(TrimBlanks(line.comment.substr(5)));
-      if (unit == "m") reading.unit = LengthUnit::kMetre;
-      if (unit == "ft") reading.unit = LengthUnit::kFoot;
+      const auto unit = FindUnit(TrimBlanks(line.comment.substr(5)));
+      if (unit) reading.unit = unit;
     }
     if (line.tokens.empty()) continue;
     const std::string_view keyword = line.tokens.front().text;

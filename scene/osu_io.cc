@@ -46,10 +46,13 @@ void ReadModelComments(const std::filesystem::path& name,
   for (const TextLine& line : lines) {
     if (const auto words = CommentField(line, "unit:")) {
       const std::string unit = words->empty() ? "" : LowerCase(words->front().text);
-      if (unit != "m" && unit != "ft") {
-        throw Error(name, line.number, "unit " + Quote(unit) + " is not known; expected ft or m");
+      const std::optional<LengthUnit> known = FindUnit(unit);
+      if (!known) {
+        throw Error(name,
+                    line.number,
+                    "unit " + Quote(unit) + " is not known; expected " + UnitNames());
       }
-      model.unit = unit == "m" ? LengthUnit::kMetre : LengthUnit::kFoot;
+      model.unit = *known;
     } else if (const auto origin = CommentField(line, "origin:")) {
       const std::vector<double> numbers =
           FieldNumbers(name, line.number, *origin, 3, "origin: LATITUDE LONGITUDE HEIGHT");
@@ -270,7 +273,7 @@ std::string FormatOsu(const PolygonModel& model) {
       "% Polygon model in the extended OSU format.\n"
       "% LEFT-handed: x east, y south, z up. Faces list point numbers, from 1, counterclockwise\n"
       "% as seen from the front.\n";
-  text += std::string("% unit: ") + (model.unit == LengthUnit::kMetre ? "m" : "ft") + "\n";
+  text += std::string("% unit: ") + UnitName(model.unit) + "\n";
   if (model.georeference) {
     const Georeference& place = *model.georeference;
     text += "% origin: " + FormatNumber(place.latitude_deg) + " " +

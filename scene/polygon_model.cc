@@ -2,8 +2,6 @@
 // Part of Groundglass.
 #include "scene/polygon_model.h"
 
-#include "scene/frames.h"
-
 #include <cmath>
 
 namespace groundglass {
@@ -32,8 +30,6 @@ bool IsInsideTriangle(const Eigen::Vector2d& p,
 }
 
 }  // namespace
-
-double MetresPerUnit(LengthUnit unit) { return unit == LengthUnit::kFoot ? kMetresPerFoot : 1.0; }
 
 FacePlane ComputeFacePlane(const PolygonModel& model, int face) {
   const Face& polygon = model.faces[face];

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/length_unit.h"
+
 #include <Eigen/Dense>
 
 #include <array>
@@ -16,6 +18,7 @@ namespace groundglass {
 struct Face {
   std::vector<int> points;
   std::string name;  // as commented in the file; may be empty
+  int number = 0;    // in its file, from 1; 0 if it has none: its place among the faces counts
 };
 
 // Where on Earth the model stands.
@@ -26,14 +29,15 @@ struct Georeference {
   double north_deg = 0;  // bearing of the model's north (+Y in world), clockwise from true north
 };
 
-enum class LengthUnit { kFoot, kMetre };
-double MetresPerUnit(LengthUnit unit);
-
 // The building as polygons, in `world` and in the model's own unit.
 struct PolygonModel {
   std::vector<Eigen::Vector3d> points_in_world;
   std::vector<Face> faces;
   LengthUnit unit = LengthUnit::kFoot;
+  bool is_unit_assumed = false;  // neither the file nor an option says the unit
+  // How far its edges may lie off the building's, one standard deviation, in `unit`; the model's
+  // own word or an option's.
+  std::optional<double> sigma;
   std::optional<Georeference> georeference;
 };
 

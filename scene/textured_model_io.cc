@@ -105,7 +105,7 @@ void WriteTexturedObj(const std::filesystem::path& file,
   WriteFileAtomically(library, materials);
 
   std::string text = std::string("# Groundglass: x east, y north, z up.\n# unit: ") +
-                     (model.model.unit == LengthUnit::kMetre ? "m" : "ft") + "\nmtllib " +
+                     UnitName(model.model.unit) + "\nmtllib " +
                      library.filename().string() + "\n";
   for (const Eigen::Vector3d& point : model.model.points_in_world) {
     text += "v " + FormatNumber(point.x() + 0.0) + " " + FormatNumber(point.y() + 0.0) + " " +

@@ -56,9 +56,9 @@ constexpr std::array<ParameterWords, kNumCameraParameters> kParameterWords = {{
     {"lens distortion (k1)", " "},
 }};
 
-std::string UnitName(const Scene* scene) {
+std::string UnitSuffix(const Scene* scene) {
   if (!scene) return " units";
-  return scene->model.unit == LengthUnit::kFoot ? " ft" : " m";
+  return " " + UnitName(scene->model.unit);
 }
 
 std::string VerdictCell(Verdict verdict) {
@@ -92,8 +92,8 @@ class Report {
     AddHeading();
     AddNewViews();
     if (registrations_) AddPhotographTable();
-    if (coverage_) body_ += FormatCoverageSection(*coverage_, UnitName(scene_));
-    body_ += FormatModelErrorSection(model_errors_, UnitName(scene_));
+    if (coverage_) body_ += FormatCoverageSection(*coverage_, UnitSuffix(scene_));
+    body_ += FormatModelErrorSection(model_errors_, UnitSuffix(scene_));
     if (registrations_) AddPhotographs();
     AddFooter();
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -287,7 +287,7 @@ class Report {
           std::find(registration.undetermined.begin(), registration.undetermined.end(), name) !=
           registration.undetermined.end();
       const std::string unit =
-          *kParameterWords[i].unit ? std::string(kParameterWords[i].unit) : UnitName(scene_);
+          *kParameterWords[i].unit ? std::string(kParameterWords[i].unit) : UnitSuffix(scene_);
       const double prior = registration.prior_sigmas[i];
       body_ += "<tr>" + TextCell(kParameterWords[i].name) +
                NumberCell(FormatNumber(measured[i], sigma) + unit) +
