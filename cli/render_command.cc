@@ -52,7 +52,7 @@ struct RenderArguments {
   OrbitOptions orbit;
 };
 
-TexturedModel ReadModelToRender(const RenderArguments& arguments) {
+TexturedModelReading ReadModelToRender(const RenderArguments& arguments) {
   fs::path file = arguments.model;
   if (fs::is_directory(file)) {
     if (!fs::exists(file / "model.glb")) {
@@ -60,19 +60,15 @@ TexturedModel ReadModelToRender(const RenderArguments& arguments) {
     }
     file /= "model.glb";
   }
-  TexturedModel textured = ReadTexturedModel(file);
-  if (arguments.common.unit && *arguments.common.unit != textured.model.unit) {
-    // glTF is in metres, whatever the unit that the views are in; other files' numbers are taken
-    // to be in the unit given.
-    const bool is_gltf = file.extension() == ".glb" || file.extension() == ".gltf";
-    if (is_gltf) {
-      const double scale =
-          MetresPerUnit(textured.model.unit) / MetresPerUnit(*arguments.common.unit);
-      for (Eigen::Vector3d& point : textured.model.points_in_world) point *= scale;
-    }
-    textured.model.unit = *arguments.common.unit;
-  }
-  return textured;
+  ModelOptions options;
+  options.unit = arguments.common.unit;
+  return ReadTexturedModel(file, options);
+}
+
+std::vector<std::string> Together(std::vector<std::string> warnings,
+                                  const std::vector<std::string>& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+  return warnings;
 }
 
 // The picture's size: as asked for; what is left open follows from the view's aspect.
@@ -111,7 +107,8 @@ void Report(const RenderArguments& arguments,
 }
 
 int RenderOverlay(const RenderArguments& arguments) {
-  const PolygonModel model = ReadModelToRender(arguments).model;
+  const TexturedModelReading reading = ReadModelToRender(arguments);
+  const PolygonModel& model = reading.textured.model;
   const Image8 photograph = ReadSrgb8(arguments.photograph);
   const Camera camera =
       CameraFromTag(ReadView(arguments.view_file), photograph.width, photograph.height);
@@ -120,19 +117,20 @@ int RenderOverlay(const RenderArguments& arguments) {
         arguments.out,
         DrawOverlay(photograph, model, FindModelEdges(model), Visibility(model), camera, nullptr));
   }
-  Report(arguments, {photograph.width, photograph.height}, 1, {});
+  Report(arguments, {photograph.width, photograph.height}, 1, reading.warnings);
   return kExitDone;
 }
 
 int RenderStill(const RenderArguments& arguments) {
   const ViewTag tag = ReadView(arguments.view_file);
   const ImageSize size = ChooseSize(arguments, tag.aspect);
-  Renderer renderer(ReadModelToRender(arguments));
+  const TexturedModelReading reading = ReadModelToRender(arguments);
+  Renderer renderer(reading.textured);
   if (!arguments.common.dry_run) {
     WriteSrgb8(arguments.out,
                renderer.Render(CameraFromTag(tag, size.width, size.height), arguments.render));
   }
-  Report(arguments, size, 1, renderer.Warnings());
+  Report(arguments, size, 1, Together(reading.warnings, renderer.Warnings()));
   return kExitDone;
 }
 
@@ -166,7 +164,8 @@ int RenderFilm(const RenderArguments& arguments) {
   size.height += size.height % 2;
   const int num_frames = std::max(
       1, static_cast<int>(std::lround(arguments.seconds * arguments.film.frames_per_second)));
-  const TexturedModel model = ReadModelToRender(arguments);
+  const TexturedModelReading reading = ReadModelToRender(arguments);
+  const TexturedModel& model = reading.textured;
   std::vector<Camera> path;
   if (arguments.path == "orbit") {
     OrbitOptions orbit = arguments.orbit;
@@ -185,7 +184,7 @@ int RenderFilm(const RenderArguments& arguments) {
         arguments.film,
         MakeProgress(arguments.common, "film"));
   }
-  Report(arguments, size, num_frames, renderer.Warnings());
+  Report(arguments, size, num_frames, Together(reading.warnings, renderer.Warnings()));
   return kExitDone;
 }
 

@@ -5,6 +5,7 @@
 #include "datasets-synthetic/oracle.h"
 #include "datasets-synthetic/texel_map.h"
 #include "scene/error.h"
+#include "scene/face_number.h"
 #include "scene/image_io.h"
 #include "scene/registration_io.h"
 #include "scene/textured_model_io.h"
@@ -104,9 +105,10 @@ void EvaluateMasks(const fs::path& found,
   for (const NamedCamera& camera : truth.cameras) {
     const fs::path file = found / "faces" / (camera.name + ".png");
     if (!fs::exists(file)) continue;
-    AddMaskOverlaps(ReadLabels(truth.masks_model_folder / (camera.name + ".png")),
-                    ReadLabels(file),
-                    evaluation.faces);
+    AddMaskOverlaps(
+        KnownLabelsFromNumbers(model, ReadLabels(truth.masks_model_folder / (camera.name + ".png"))),
+        KnownLabelsFromNumbers(model, ReadLabels(file)),
+        evaluation.faces);
   }
 }
 
@@ -126,7 +128,7 @@ void EvaluateTextures(const fs::path& found,
                       Evaluation& evaluation) {
   const fs::path file = found / "model.glb";
   if (!options.render || !fs::exists(file)) return;
-  TexturedModel model = ReadTexturedModel(file);
+  TexturedModel model = ReadTexturedModel(file).textured;
   ReadProvenance(found, model);
   if (!truth.surfaces_folder.empty()) {
     evaluation.texels = MeasureTexels(model, truth.surfaces_folder);

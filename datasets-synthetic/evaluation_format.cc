@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "datasets-synthetic/evaluate.h"
+#include "scene/face_number.h"
 
 #include <nlohmann/json.hpp>
 
@@ -243,7 +244,7 @@ std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonMode
   json["faces"] = nlohmann::ordered_json::array();
   for (size_t i = 0; i < evaluation.faces.size(); ++i) {
     if (evaluation.faces[i].union_px == 0) continue;
-    json["faces"].push_back({{"face", i + 1},
+    json["faces"].push_back({{"face", FaceNumber(model, static_cast<int>(i))},
                              {"name", model.faces[i].name},
                              {"iou", evaluation.faces[i].IntersectionOverUnion()},
                              {"union_px", evaluation.faces[i].union_px}});
@@ -265,7 +266,7 @@ std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonMode
     for (size_t i = 0; i < evaluation.texels->faces.size(); ++i) {
       const TexelErrors::OfFace& face = evaluation.texels->faces[i];
       if (face.num_covered == 0) continue;
-      json["texels"]["faces"].push_back({{"face", i + 1},
+      json["texels"]["faces"].push_back({{"face", FaceNumber(model, static_cast<int>(i))},
                                          {"num_texels", face.num_texels},
                                          {"num_covered", face.num_covered},
                                          {"rms_levels", face.rms_levels}});

@@ -124,8 +124,8 @@ void WriteBake(const BakeResult& result,
 
 std::function<void(const BakePhotograph&, const Image16&)> FaceMaskWriter(
     const std::filesystem::path& out) {
-  return [out](const BakePhotograph& photograph, const Image16& labels) {
-    WriteLabels(out / "faces" / (photograph.name + ".png"), labels);
+  return [out](const BakePhotograph& photograph, const Image16& numbers) {
+    WriteLabels(out / "faces" / (photograph.name + ".png"), numbers);
   };
 }
 

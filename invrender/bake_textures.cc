@@ -18,6 +18,7 @@
 #include "invrender/sharpness.h"
 #include "invrender/texel_size.h"
 #include "scene/error.h"
+#include "scene/face_number.h"
 #include "scene/scene_folder.h"
 
 #include <tbb/parallel_for.h>
@@ -175,6 +176,7 @@ Coverage StartCoverage(const PolygonModel& model,
   for (size_t i = 0; i < model.faces.size(); ++i) {
     FaceCoverage& face = coverage.faces.emplace_back();
     face.face = static_cast<int>(i);
+    face.number = FaceNumber(model, face.face);
     face.name = model.faces[i].name;
     face.area = ComputeFaceArea(model, face.face);
     face.texel_size = charts[chart_of_face[i]].texel_size;
@@ -262,6 +264,11 @@ BakeResult BakeTextures(const PolygonModel& model,
                         const Progress& progress) {
   options.Check();
   if (photographs.size() >= kProvenanceFilled) throw Error("more than 65534 photographs");
+  // Face masks hold 16 bits.
+  if (HighestFaceNumber(model) > 65535) {
+    throw Error("the model has " + std::to_string(model.faces.size()) +
+                " faces; no more than 65535 can be textured");
+  }
   // Name order, which provenance counts in.
   std::vector<BakePhotograph> sorted(photographs.begin(), photographs.end());
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "invrender/charts.h"
 
+#include "scene/face_outline.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -110,9 +112,9 @@ void SetAxes(const PolygonModel& model, Chart& chart) {
     double longest = -1;
     for (const int face : chart.faces) {
       const std::vector<int>& points = model.faces[face].points;
-      for (size_t i = 0; i < points.size(); ++i) {
-        const Eigen::Vector3d edge = model.points_in_world[points[(i + 1) % points.size()]] -
-                                     model.points_in_world[points[i]];
+      for (const OutlineSide& side : FindBorders(model, face)) {
+        const Eigen::Vector3d edge =
+            model.points_in_world[points[side.end]] - model.points_in_world[points[side.start]];
         if (edge.norm() > longest * (1 + 1e-9)) {
           longest = edge.norm();
           right = edge - edge.dot(normal) * normal;
@@ -182,20 +184,19 @@ ChartTexels::ChartTexels(const PolygonModel& model, const Chart& chart)
   for (const int face : chart.faces) {
     Outline& outline = outlines_.emplace_back();
     outline.face = face;
-    for (const int point : model.faces[face].points) {
-      outline.corners.push_back(chart.TexelFromWorld(model.points_in_world[point]));
+    const std::vector<int>& points = model.faces[face].points;
+    for (const OutlineSide& side : FindBorders(model, face)) {
+      outline.sides.push_back({chart.TexelFromWorld(model.points_in_world[points[side.start]]),
+                               chart.TexelFromWorld(model.points_in_world[points[side.end]])});
     }
   }
   // Texels whose centre lies inside: even-odd spans of each row.
   for (const Outline& outline : outlines_) {
-    const size_t num_corners = outline.corners.size();
     std::vector<double> crossings;
     for (int y = 0; y < height(); ++y) {
       crossings.clear();
       const double row = y + 0.5;
-      for (size_t i = 0; i < num_corners; ++i) {
-        const Eigen::Vector2d& a = outline.corners[i];
-        const Eigen::Vector2d& b = outline.corners[(i + 1) % num_corners];
+      for (const auto& [a, b] : outline.sides) {
         if ((a.y() <= row) == (b.y() <= row)) continue;
         crossings.push_back(a.x() + (row - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
       }
@@ -214,10 +215,7 @@ ChartTexels::ChartTexels(const PolygonModel& model, const Chart& chart)
   // Texels that only a border crosses.
   constexpr double kReach = 0.7072;  // half a texel's diagonal
   for (const Outline& outline : outlines_) {
-    const size_t num_corners = outline.corners.size();
-    for (size_t i = 0; i < num_corners; ++i) {
-      const Eigen::Vector2d& a = outline.corners[i];
-      const Eigen::Vector2d& b = outline.corners[(i + 1) % num_corners];
+    for (const auto& [a, b] : outline.sides) {
       const int num_steps = std::max(1, static_cast<int>(std::ceil(2 * (b - a).norm())));
       for (int step = 0; step <= num_steps; ++step) {
         const Eigen::Vector2d at = a + (b - a) * step / num_steps;
@@ -245,9 +243,8 @@ Eigen::Vector2d ChartTexels::PointAt(int x, int y) const {
   double best_distance = 1e300;
   for (const Outline& outline : outlines_) {
     if (outline.face != face) continue;
-    for (size_t i = 0; i < outline.corners.size(); ++i) {
-      const Eigen::Vector2d point = NearestOnSegment(
-          centre, outline.corners[i], outline.corners[(i + 1) % outline.corners.size()]);
+    for (const auto& [start, end] : outline.sides) {
+      const Eigen::Vector2d point = NearestOnSegment(centre, start, end);
       const double distance = (point - centre).squaredNorm();
       if (distance < best_distance) {
         best_distance = distance;

@@ -66,8 +66,12 @@ class ChartTexels {
 
  private:
   struct Outline {
+    struct Side {
+      Eigen::Vector2d start;
+      Eigen::Vector2d end;
+    };
     int face = -1;
-    std::vector<Eigen::Vector2d> corners;  // chart coordinates, texels
+    std::vector<Side> sides;  // around the face and its holes; chart coordinates, texels
   };
   std::vector<Outline> outlines_;
   Raster<int32_t> faces_;

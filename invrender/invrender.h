@@ -73,8 +73,9 @@ struct BakeOptions {
   // frame and unit. Photographs then texture what both have; what is new stays plain.
   std::optional<PolygonModel> as_photographed;
 
-  // Gets each photograph's automatic face mask (MakeFaceMask), from several threads at once.
-  std::function<void(const BakePhotograph& photograph, const Image16& labels)> on_face_mask;
+  // Gets each photograph's automatic face mask (MakeFaceMask) with the faces' numbers, from several
+  // threads at once.
+  std::function<void(const BakePhotograph& photograph, const Image16& numbers)> on_face_mask;
 
   void Check() const;  // throws Error naming the first field out of range
 };

@@ -4,6 +4,7 @@
 
 #include "invrender/border_distance.h"
 #include "scene/error.h"
+#include "scene/face_number.h"
 #include "scene/image_io.h"
 
 #include <algorithm>
@@ -124,18 +125,12 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
   };
   if (is_asked_for) {
     make_labels(1);
-    options.on_face_mask(photograph, labels);
+    options.on_face_mask(photograph, NumbersFromLabels(model, labels));
   }
   if (is_hand_painted_) {
-    labels = ReadLabels(*photograph.faces_file);
-    CheckSize(*photograph.faces_file, labels.width, labels.height, camera_);
-    for (const uint16_t label : labels.values) {
-      if (label > model.faces.size()) {
-        throw Error(*photograph.faces_file,
-                    "names face " + std::to_string(label) + ", but the model has " +
-                        std::to_string(model.faces.size()));
-      }
-    }
+    const Image16 numbers = ReadLabels(*photograph.faces_file);
+    CheckSize(*photograph.faces_file, numbers.width, numbers.height, camera_);
+    labels = LabelsFromNumbers(model, numbers, *photograph.faces_file);
   } else if (mask_side_ > 1 || !is_asked_for) {
     make_labels(mask_side_);
   }

@@ -3,6 +3,7 @@
 #include "invrender/selection.h"
 
 #include "scene/error.h"
+#include "scene/face_number.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ namespace {
 
 // The faces that one word means; none if it means nothing.
 std::vector<int> FacesOfWord(const PolygonModel& model, const std::string& word) {
-  const auto num_faces = static_cast<long long>(model.faces.size());
   std::vector<int> found;
   for (size_t face = 0; face < model.faces.size(); ++face) {
     if (!word.empty() && model.faces[face].name == word) found.push_back(static_cast<int>(face));
@@ -26,15 +26,24 @@ std::vector<int> FacesOfWord(const PolygonModel& model, const std::string& word)
   const size_t dash = word.find('-', 1);
   const auto first = ParseInteger(word.substr(0, dash));
   const auto last = dash == std::string::npos ? first : ParseInteger(word.substr(dash + 1));
-  if (!first || !last || *first < 1 || *last < *first || *last > num_faces) return {};
-  found.resize(*last - *first + 1);
-  std::iota(found.begin(), found.end(), static_cast<int>(*first - 1));
+  if (!first || !last || *first < 1 || *last < *first || *last > HighestFaceNumber(model)) {
+    return {};
+  }
+  for (int face = 0; face < static_cast<int>(model.faces.size()); ++face) {
+    const int number = FaceNumber(model, face);
+    if (number >= *first && number <= *last) found.push_back(face);
+  }
   return found;
 }
 
 std::string NoSuchFace(const PolygonModel& model, const std::string& word) {
+  const auto number = ParseInteger(word);
+  if (number && *number >= 1 && *number < HighestFaceNumber(model)) {
+    return "face " + std::to_string(*number) +
+           " cannot be used, or lies twice, and is left out of the model";
+  }
   return "no face is called " + Quote(word) + "; faces have numbers from 1 to " +
-         std::to_string(model.faces.size()) + ", and names";
+         std::to_string(HighestFaceNumber(model)) + ", and names";
 }
 
 bool IsCalled(const BakePhotograph& photograph, const std::string& name) {

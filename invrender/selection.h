@@ -11,7 +11,7 @@
 
 namespace groundglass {
 
-// The faces (from 0, ascending) that a person means: numbers from 1 as `check` lists them, ranges
+// The faces (from 0, ascending) that a person means: numbers in the model's file, from 1, ranges
 // of them ("3-7"), and names, which several faces may share. Throws Error for what is none.
 std::vector<int> FindFaces(const PolygonModel& model, const std::vector<std::string>& words);
 

@@ -3,6 +3,7 @@
 #include "invrender/tiles.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/face_number.h"
 #include "scene/image_io.h"
 #include "scene/osu_io.h"
 #include "scene/view_io.h"
@@ -53,7 +54,7 @@ void WriteTileRecord(const fs::path& folder, const TileRecord& record) {
     if (photograph.mask_file) SetFile(absolute, "mask", *photograph.mask_file, json);
     if (photograph.faces_file) SetFile(absolute, "painted_faces", *photograph.faces_file, json);
     std::vector<int> faces = *photograph.faces;
-    for (int& face : faces) ++face;  // people count from 1
+    for (int& face : faces) face = FaceNumber(record.model, face);
     json["faces"] = faces;
     photographs.push_back(json);
   }
@@ -77,12 +78,11 @@ TileRecord ReadTileRecord(const fs::path& folder) {
       photograph.faces_file = GetFile(folder, "painted_faces", entry);
       photograph.faces = entry.at("faces").get<std::vector<int>>();
       for (int& face : *photograph.faces) {
-        if (face < 1 || face > static_cast<int>(record.model.faces.size())) {
-          throw Error(file,
-                      "names face " + std::to_string(face) + ", but the model has " +
-                          std::to_string(record.model.faces.size()));
+        const auto found = FindFaceByNumber(record.model, face);
+        if (!found) {
+          throw Error(file, "names face " + std::to_string(face) + ", which the model has not");
         }
-        --face;
+        face = *found;
       }
       const ImageSize size = ReadImageSize(photograph.image_file);
       photograph.camera = CameraFromTag(

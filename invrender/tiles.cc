@@ -3,6 +3,7 @@
 #include "invrender/tiles.h"
 
 #include "scene/error.h"
+#include "scene/face_number.h"
 #include "scene/image_io.h"
 #include "scene/srgb.h"
 
@@ -67,7 +68,7 @@ Image16 MakeTileLabels(const PolygonModel& model,
   if (photograph.faces_file) {
     const Image16 painted = ReadLabels(*photograph.faces_file);
     CheckSize(*photograph.faces_file, painted.width, painted.height, photograph.camera);
-    labels = Unanimous(painted, side, 0);
+    labels = Unanimous(LabelsFromNumbers(model, painted, *photograph.faces_file), side, 0);
   } else {
     labels = MakeFaceMask(model, visibility, CoarserCamera(photograph.camera, side));
   }

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "register/model_errors.h"
 
+#include "scene/face_number.h"
+
 #include <algorithm>
 
 namespace groundglass {
@@ -9,7 +11,7 @@ namespace {
 
 std::string NameOfFace(const PolygonModel& model, int face) {
   const std::string& name = model.faces[face].name;
-  return name.empty() ? "face " + std::to_string(face + 1) : name;
+  return name.empty() ? "face " + std::to_string(FaceNumber(model, face)) : name;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "scene/face_outline.h"
 #include "scene/model_io.h"
 
 #include <algorithm>
@@ -16,88 +17,6 @@ constexpr double kPlanarShare = 1e-3;
 constexpr double kZeroAreaShare = 1e-9;
 // Points nearer to a line than this share of the size lie on it.
 constexpr double kTouchShare = 1e-9;
-
-double Cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-// The side of the line a-b on which p lies: -1, 0 (on it, within `tolerance`), 1.
-int SideOf(const Eigen::Vector2d& a,
-           const Eigen::Vector2d& b,
-           const Eigen::Vector2d& p,
-           double tolerance) {
-  const double distance = Cross2(b - a, p - a) / (b - a).norm();
-  return distance > tolerance ? 1 : distance < -tolerance ? -1 : 0;
-}
-
-bool IsWithin(const Eigen::Vector2d& a,
-              const Eigen::Vector2d& b,
-              const Eigen::Vector2d& p,
-              double tolerance) {
-  const Eigen::Vector2d along = (b - a).normalized();
-  const double t = along.dot(p - a);
-  return t >= -tolerance && t <= (b - a).norm() + tolerance;
-}
-
-// True if the two closed segments have a point in common.
-bool SegmentsMeet(const Eigen::Vector2d& a,
-                  const Eigen::Vector2d& b,
-                  const Eigen::Vector2d& c,
-                  const Eigen::Vector2d& d,
-                  double tolerance) {
-  const int c_side = SideOf(a, b, c, tolerance);
-  const int d_side = SideOf(a, b, d, tolerance);
-  const int a_side = SideOf(c, d, a, tolerance);
-  const int b_side = SideOf(c, d, b, tolerance);
-  if (c_side * d_side < 0 && a_side * b_side < 0) return true;
-  return (c_side == 0 && IsWithin(a, b, c, tolerance)) ||
-         (d_side == 0 && IsWithin(a, b, d, tolerance)) ||
-         (a_side == 0 && IsWithin(c, d, a, tolerance)) ||
-         (b_side == 0 && IsWithin(c, d, b, tolerance));
-}
-
-// The two sides (counted from 0) that meet where they should not; nothing for a simple outline.
-bool FindCrossing(const std::vector<Eigen::Vector2d>& outline,
-                  double tolerance,
-                  size_t& first,
-                  size_t& second) {
-  const size_t n = outline.size();
-  // Sides sorted by their left end, so that only those overlapping in x are compared.
-  std::vector<size_t> order(n);
-  for (size_t i = 0; i < n; ++i) order[i] = i;
-  const auto left = [&](size_t i) { return std::min(outline[i].x(), outline[(i + 1) % n].x()); };
-  const auto right = [&](size_t i) { return std::max(outline[i].x(), outline[(i + 1) % n].x()); };
-  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return left(a) < left(b); });
-  for (size_t u = 0; u < n; ++u) {
-    for (size_t v = u + 1; v < n && left(order[v]) <= right(order[u]) + tolerance; ++v) {
-      const size_t i = std::min(order[u], order[v]);
-      const size_t k = std::max(order[u], order[v]);
-      const Eigen::Vector2d& a = outline[i];
-      const Eigen::Vector2d& b = outline[(i + 1) % n];
-      const Eigen::Vector2d& c = outline[k];
-      const Eigen::Vector2d& d = outline[(k + 1) % n];
-      bool crosses = false;
-      if (k == i + 1 || (i == 0 && k == n - 1)) {
-        // Neighbours share a corner; they are at fault only if one doubles back over the other.
-        const Eigen::Vector2d& corner = k == i + 1 ? b : a;
-        const Eigen::Vector2d out = (k == i + 1 ? a : b) - corner;
-        const Eigen::Vector2d back = (k == i + 1 ? d : c) - corner;
-        const double shorter = std::min(out.norm(), back.norm());
-        crosses = out.dot(back) > 0 &&
-                  std::abs(Cross2(out, back)) <= tolerance * std::max(out.norm(), back.norm()) &&
-                  shorter > tolerance;
-      } else {
-        crosses = SegmentsMeet(a, b, c, d, tolerance);
-      }
-      if (crosses) {
-        first = i;
-        second = k;
-        return true;
-      }
-    }
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -118,14 +37,6 @@ FaceCheck CheckFace(const PolygonModel& model, int face_index) {
       return check;
     }
   }
-  std::vector<int> sorted = face.points;
-  std::sort(sorted.begin(), sorted.end());
-  const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
-  if (repeated != sorted.end()) {
-    check.fault = "has point " + number(*repeated) + " more than once";
-    return check;
-  }
-
   Eigen::Vector3d low = model.points_in_world[static_cast<size_t>(face.points[0])];
   Eigen::Vector3d high = low;
   for (const int point : face.points) {
@@ -140,6 +51,10 @@ FaceCheck CheckFace(const PolygonModel& model, int face_index) {
     if ((model.points_in_world[static_cast<size_t>(here)] -
          model.points_in_world[static_cast<size_t>(next)])
             .norm() <= tolerance) {
+      if (here == next) {
+        check.fault = "has point " + number(here) + " more than once";
+        return check;
+      }
       check.fault = "has a repeated point: " + number(here) + " and " + number(next) +
                     " are at the same place";
       return check;
@@ -157,12 +72,32 @@ FaceCheck CheckFace(const PolygonModel& model, int face_index) {
     deviation = std::max(deviation, std::abs(plane.normal_in_world.dot(position) - plane.offset));
   }
   const bool has_area = ComputeFaceArea(model, face_index) > kZeroAreaShare * size * size;
-  size_t first = 0;
-  size_t second = 0;
-  if (has_area && FindCrossing(outline, tolerance, first, second)) {
-    check.fault = "crosses or touches itself: its sides " + number(face.points[first]) + "-" +
-                  number(face.points[(first + 1) % n]) + " and " + number(face.points[second]) +
-                  "-" + number(face.points[(second + 1) % n]) + " meet";
+  std::optional<std::array<OutlineSide, 2>> meeting;
+  if (has_area) {
+    const OutlineLoops loops = PartOutline(outline, tolerance, true);
+    meeting = loops.meeting;
+    if (loops.is_turned) {
+      check.fault = "has a hole that runs the same way round as its outline";
+      return check;
+    }
+  }
+  if (meeting || !has_area) {
+    // Most likely a slip of the pen in a file written by hand.
+    std::vector<int> sorted = face.points;
+    std::sort(sorted.begin(), sorted.end());
+    const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
+    if (repeated != sorted.end()) {
+      check.fault = "has point " + number(*repeated) + " more than once";
+      return check;
+    }
+  }
+  if (meeting) {
+    const auto name = [&](const OutlineSide& side) {
+      return number(face.points[static_cast<size_t>(side.start)]) + "-" +
+             number(face.points[static_cast<size_t>(side.end)]);
+    };
+    check.fault = "crosses or touches itself: its sides " + name((*meeting)[0]) + " and " +
+                  name((*meeting)[1]) + " meet";
     return check;
   }
   if (!has_area) {

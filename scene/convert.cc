@@ -6,7 +6,6 @@
 #include "scene/colmap_io.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
-#include "scene/mesh_io.h"
 #include "scene/osu_io.h"
 #include "scene/scene_folder.h"
 #include "scene/text.h"
@@ -30,23 +29,14 @@ std::string Count(size_t number, const std::string& what) {
 ConvertResult ConvertModel(const fs::path& input,
                            const fs::path& output,
                            const ModelOptions& options) {
-  const std::string from = LowerCase(input.extension().string());
   const std::string to = LowerCase(output.extension().string());
   if (to != ".osu" && to != ".obj" && to != ".glb") {
     throw Error(output, "a model is written as .osu, .obj or .glb");
   }
   ConvertResult result;
-  ModelReading reading = ReadModel(input, options);
+  TexturedModelReading reading = ReadTexturedModel(input, options, to != ".osu");
   result.warnings = std::move(reading.warnings);
-  TexturedModel textured;
-  textured.model = std::move(reading.model);
-  textured.faces.resize(textured.model.faces.size());
-  if (to != ".osu" && (from == ".obj" || from == ".glb" || from == ".gltf")) {
-    // The same faces in the same order, with their places on the pages.
-    TexturedModel with_pages = ReadTexturedModel(input);
-    textured.faces = std::move(with_pages.faces);
-    textured.pages = std::move(with_pages.pages);
-  }
+  const TexturedModel& textured = reading.textured;
   if (to == ".osu") {
     WriteFileAtomically(output, FormatOsu(textured.model));
   } else if (to == ".glb") {

@@ -12,7 +12,8 @@ namespace groundglass {
 
 // How much of one face the photographs show.
 struct FaceCoverage {
-  int face = -1;  // in the model, from 0
+  int face = -1;   // in the model, from 0
+  int number = 0;  // in the model's file, from 1; 0: its place counts
   std::string name;
   double area = 0;  // model's unit, squared
   double covered_area = 0;

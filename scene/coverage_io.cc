@@ -20,7 +20,7 @@ std::string FormatCoverage(const Coverage& coverage) {
                          {"texels", source.num_texels},
                          {"footprint", source.footprint}});
     }
-    document["faces"].push_back({{"face", face.face + 1},
+    document["faces"].push_back({{"face", face.number > 0 ? face.number : face.face + 1},
                                  {"name", face.name},
                                  {"area", face.area},
                                  {"covered_area", face.covered_area},

@@ -120,9 +120,18 @@ std::vector<ModelEdge> FindModelEdges(const PolygonModel& model) {
       chain.push_back(end);
       for (size_t k = 0; k + 1 < chain.size(); ++k) {
         const std::pair<int, int> ends = std::minmax(chain[k], chain[k + 1]);
-        std::vector<BorderPiece>& here = pieces[ends];
-        if (here.empty()) order.push_back(ends);
-        here.push_back({face, chain[k] < chain[k + 1]});
+        const auto [place, is_new] = pieces.try_emplace(ends);
+        if (is_new) order.push_back(ends);
+        std::vector<BorderPiece>& here = place->second;
+        // A face that walks a piece both ways crosses a bridge to a hole of its: no border.
+        const auto back = std::find_if(here.begin(), here.end(), [&](const BorderPiece& piece) {
+          return piece.face == face && piece.is_forward != (chain[k] < chain[k + 1]);
+        });
+        if (back != here.end()) {
+          here.erase(back);
+        } else {
+          here.push_back({face, chain[k] < chain[k + 1]});
+        }
       }
     }
   }
@@ -130,6 +139,7 @@ std::vector<ModelEdge> FindModelEdges(const PolygonModel& model) {
   std::vector<ModelEdge> edges;
   for (const std::pair<int, int>& ends : order) {
     const std::vector<BorderPiece>& here = pieces[ends];
+    if (here.empty()) continue;
     ModelEdge edge;
     edge.start_in_world = model.points_in_world[ends.first];
     edge.end_in_world = model.points_in_world[ends.second];

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "scene/error.h"
-#include "scene/frames.h"
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_extensions.h"
 #include "scene/image_io.h"
+#include "scene/material_library.h"
 #include "scene/mesh_io.h"
-#include "scene/own_tiny_gltf.h"
 #include "scene/text.h"
-#include "scene/view_io.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <set>
 
 namespace groundglass {
 namespace {
@@ -40,8 +40,10 @@ class GltfReader {
   GltfReader(const std::filesystem::path& file, std::optional<LengthUnit> unit)
       : file_(file), unit_(unit) {}
 
-  TexturedModel Read(bool with_pages) {
+  MeshReading Read(bool with_pages) {
     Parse();
+    CheckGltfExtensions(gltf_, file_, reading_.warnings);
+    origin_ = GltfOrigin(gltf_, file_);
     ReadOwnNotes();
     const int scene_index = gltf_.defaultScene >= 0 ? gltf_.defaultScene : 0;
     if (gltf_.scenes.empty()) {
@@ -53,25 +55,18 @@ class GltfReader {
     RestoreOrder();
     FindPages(with_pages);
     JoinIdenticalPoints(result_.model);
-    return std::move(result_);
+    return std::move(reading_);
   }
 
  private:
-  [[noreturn]] void Fail(const std::string& message) const {
-    throw Error(file_, "cannot read this glTF model: " + message);
-  }
+  [[noreturn]] void Fail(const std::string& message) const { FailGltf(file_, message); }
 
   template <typename T>
   const T& At(const std::vector<T>& items, int index, const char* what) const {
-    if (index < 0 || static_cast<size_t>(index) >= items.size()) {
-      Fail(std::string("it names a ") + what + " that it does not have");
-    }
-    return items[static_cast<size_t>(index)];
+    return GltfItem(items, index, what, file_);
   }
 
   void Parse() {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file_, error)) throw Error(file_, "no such model file");
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(KeepImageBytes, nullptr);
     std::string faults;
@@ -147,54 +142,8 @@ class GltfReader {
     for (const int child : node.children) AppendNode(child, transform, depth + 1);
   }
 
-  // An accessor's numbers, `width` to an element; whole numbers are scaled if they are marked so.
   std::vector<double> ReadAccessor(int index, int width) const {
-    const tinygltf::Accessor& accessor = At(gltf_.accessors, index, "accessor");
-    if (accessor.sparse.isSparse) Fail("sparse accessors are not supported");
-    const tinygltf::BufferView& view = At(gltf_.bufferViews, accessor.bufferView, "buffer view");
-    const tinygltf::Buffer& buffer = At(gltf_.buffers, view.buffer, "buffer");
-    const int component_size =
-        tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor.componentType));
-    const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
-    if (component_size < 1 || components != width) Fail("an accessor has the wrong type");
-    const size_t element = static_cast<size_t>(component_size) * static_cast<size_t>(components);
-    const size_t stride = view.byteStride > 0 ? view.byteStride : element;
-    const size_t begin = view.byteOffset + accessor.byteOffset;
-    const size_t available = buffer.data.size();
-    if (begin > available || stride < element ||
-        (accessor.count > 0 && (accessor.count - 1 > (available - begin) / stride ||
-                                begin + (accessor.count - 1) * stride + element > available))) {
-      Fail("an accessor reaches beyond its buffer");
-    }
-    std::vector<double> values;
-    values.reserve(accessor.count * static_cast<size_t>(width));
-    for (size_t i = 0; i < accessor.count; ++i) {
-      const unsigned char* at = buffer.data.data() + begin + i * stride;
-      for (int c = 0; c < components; ++c) {
-        values.push_back(ReadComponent(at + c * component_size, accessor));
-      }
-    }
-    return values;
-  }
-
-  double ReadComponent(const unsigned char* at, const tinygltf::Accessor& accessor) const {
-    const auto read = [at](auto value) {
-      std::memcpy(&value, at, sizeof(value));
-      return static_cast<double>(value);
-    };
-    const double scale = accessor.normalized ? 1.0 : 0.0;
-    switch (accessor.componentType) {
-      case TINYGLTF_COMPONENT_TYPE_FLOAT:
-        return read(float{});
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return read(uint8_t{}) / (scale > 0 ? 255 : 1);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return read(uint16_t{}) / (scale > 0 ? 65535 : 1);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return read(uint32_t{});
-      default:
-        Fail("an accessor has a type that is not supported");
-    }
+    return ReadGltfAccessor(gltf_, index, width, file_);
   }
 
   // The primitive's corners as triangles, whatever way it strings them.
@@ -219,7 +168,9 @@ class GltfReader {
     } else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
       for (size_t i = 0; i + 2 < corners.size(); ++i) {
         const size_t odd = i % 2;
-        triangles.push_back({corners[i], corners[i + 1 + odd], corners[i + 2 - odd]});
+        const std::array<int, 3> t = {corners[i], corners[i + 1 + odd], corners[i + 2 - odd]};
+        // Doubled corners only turn the strip around.
+        if (t[0] != t[1] && t[1] != t[2] && t[0] != t[2]) triangles.push_back(t);
       }
     } else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN) {
       for (size_t i = 1; i + 1 < corners.size(); ++i) {
@@ -234,6 +185,10 @@ class GltfReader {
                        const Eigen::Matrix4d& transform) {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return;
+    if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 &&
+        At(gltf_.accessors, position->second, "accessor").bufferView < 0) {
+      Fail("a mesh is compressed by Draco (KHR_draco_mesh_compression); write it again without");
+    }
     const std::vector<double> coordinates = ReadAccessor(position->second, 3);
     const size_t num_vertices = coordinates.size() / 3;
     PolygonModel& model = result_.model;
@@ -242,21 +197,34 @@ class GltfReader {
     for (size_t i = 0; i < num_vertices; ++i) {
       const Eigen::Vector4d point(
           coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2], 1);
-      const Eigen::Vector3d placed = (transform * point).head<3>();
+      const Eigen::Vector3d placed = (transform * point).head<3>() + origin_;
       if (!placed.allFinite()) Fail("a point's coordinates are not finite numbers");
       model.points_in_world.push_back(units_per_metre * WorldFromGltf(placed));
     }
 
     std::vector<double> uv;
     const int texture = TextureImage(primitive.material);
-    const auto texcoord = primitive.attributes.find("TEXCOORD_0");
-    if (texture >= 0 && texcoord != primitive.attributes.end()) {
-      uv = ReadAccessor(texcoord->second, 2);
-      if (uv.size() / 2 != num_vertices) Fail("texture coordinates do not match its points");
+    if (texture >= 0) {
+      const GltfTextureUse use =
+          FindTextureUse(At(gltf_.materials, primitive.material, "material")
+                             .pbrMetallicRoughness.baseColorTexture);
+      const auto texture_points =
+          primitive.attributes.find("TEXCOORD_" + std::to_string(use.texture_points));
+      if (texture_points != primitive.attributes.end()) {
+        uv = ReadAccessor(texture_points->second, 2);
+        if (uv.size() / 2 != num_vertices) Fail("texture coordinates do not match its points");
+      }
+      for (size_t i = 0; i + 1 < uv.size(); i += 2) {
+        const Eigen::Vector2d moved = use * Eigen::Vector2d(uv[i], uv[i + 1]);
+        if (!moved.allFinite()) Fail("a texture coordinate is not a finite number");
+        uv[i] = moved.x();
+        uv[i + 1] = moved.y();
+      }
     }
     const auto append_face = [&](const std::vector<int>& corners, const std::string& name) {
       Face face;
       face.name = name;
+      face.number = static_cast<int>(model.faces.size()) + 1;
       FaceTexture face_texture;
       if (!uv.empty()) face_texture.page = texture;
       for (const int corner : corners) {
@@ -298,6 +266,11 @@ class GltfReader {
         faces.ArrayLen() != corners.ArrayLen() || faces.ArrayLen() != names.ArrayLen()) {
       return false;
     }
+    const tinygltf::Value* numbers = nullptr;  // in the model's file, if they are not the places
+    if (notes.Has("groundglass_numbers") && notes.Get("groundglass_numbers").IsArray() &&
+        notes.Get("groundglass_numbers").ArrayLen() == faces.ArrayLen()) {
+      numbers = &notes.Get("groundglass_numbers");
+    }
     size_t sum = 0;
     for (size_t i = 0; i < faces.ArrayLen(); ++i) {
       const int count = corners.Get(i).GetNumberAsInt();
@@ -311,18 +284,26 @@ class GltfReader {
       std::vector<int> polygon(static_cast<size_t>(corners.Get(i).GetNumberAsInt()));
       for (int& corner : polygon) corner = next++;
       append_face(polygon, names.Get(i).Get<std::string>());
-      own_order_.push_back(faces.Get(i).GetNumberAsInt());
+      const int place = faces.Get(i).GetNumberAsInt();
+      own_order_.push_back(place);
+      const bool has_number = numbers != nullptr && numbers->Get(i).GetNumberAsInt() > 0;
+      result_.model.faces.back().number =
+          has_number ? numbers->Get(i).GetNumberAsInt() : std::max(place, 0) + 1;
     }
     return true;
   }
 
   // The image of a material's base colour; -1 for none.
-  int TextureImage(int material) const {
+  int TextureImage(int material) {
     if (material < 0) return -1;
-    const int texture =
+    const int index =
         At(gltf_.materials, material, "material").pbrMetallicRoughness.baseColorTexture.index;
-    if (texture < 0) return -1;
-    return At(gltf_.textures, texture, "texture").source;
+    if (index < 0) return -1;
+    const tinygltf::Texture& texture = At(gltf_.textures, index, "texture");
+    if (texture.source < 0 && !texture.extensions.empty()) {
+      unread_textures_.insert(texture.extensions.begin()->first);
+    }
+    return texture.source;
   }
 
   // Our faces were parted by page; put them back in the model's order.
@@ -342,20 +323,37 @@ class GltfReader {
     result_.faces = std::move(textures);
   }
 
-  // Decodes the images that faces use, in order, and turns shares of the picture into texels.
+  // Decodes the images that faces use, in order, and turns shares of the picture into texels. Faces
+  // whose picture cannot be had are grey.
   void FindPages(bool with_pages) {
-    std::vector<int> page_of_image(gltf_.images.size(), -1);
+    constexpr int kNotTried = -1;
+    constexpr int kNone = -2;
+    std::vector<int> page_of_image(gltf_.images.size(), kNotTried);
+    std::vector<int> num_grey(gltf_.images.size(), 0);
+    std::vector<std::string> faults(gltf_.images.size());
     for (FaceTexture& face : result_.faces) {
       if (face.page < 0) continue;
       if (!with_pages) {
         face = FaceTexture();
         continue;
       }
-      const tinygltf::Image& image = At(gltf_.images, face.page, "image");
-      int& page = page_of_image[static_cast<size_t>(face.page)];
-      if (page < 0) {
-        page = static_cast<int>(result_.pages.size());
-        result_.pages.emplace_back().srgb8 = Decode(image);
+      const auto image = static_cast<size_t>(face.page);
+      At(gltf_.images, face.page, "image");
+      int& page = page_of_image[image];
+      if (page == kNotTried) {
+        try {
+          Image8 srgb8 = Decode(gltf_.images[image]);
+          page = static_cast<int>(result_.pages.size());
+          result_.pages.emplace_back().srgb8 = std::move(srgb8);
+        } catch (const Error& error) {
+          page = kNone;
+          faults[image] = error.what();
+        }
+      }
+      if (page == kNone) {
+        face = FaceTexture();
+        ++num_grey[image];
+        continue;
       }
       face.page = page;
       const Image8& picture = result_.pages[static_cast<size_t>(page)].srgb8;
@@ -363,30 +361,55 @@ class GltfReader {
         corner = {corner.x() * picture.width, corner.y() * picture.height};
       }
     }
+    for (const std::string& name : unread_textures_) {
+      if (!with_pages) break;
+      reading_.warnings.push_back(
+          Error(file_, "pictures of the kind " + Quote(name) + " are not read; their faces are grey")
+              .what());
+    }
+    for (size_t image = 0; image < faults.size(); ++image) {
+      if (faults[image].empty()) continue;
+      reading_.warnings.push_back(
+          Error(file_,
+                faults[image] + "; " +
+                    (num_grey[image] == 1
+                         ? std::string("its face is grey")
+                         : "its " + std::to_string(num_grey[image]) + " faces are grey"))
+              .what());
+    }
   }
 
   Image8 Decode(const tinygltf::Image& image) const {
     const std::vector<unsigned char>& bytes = image.image;
+    if (bytes.empty()) {
+      const auto found = FindNamedFile(file_.parent_path(), image.uri);
+      if (found) return ReadSrgb8(*found);
+      throw Error("the picture " + Quote(image.uri.empty() ? image.name : image.uri) +
+                  " is not there");
+    }
     const bool is_png = bytes.size() > 4 && bytes[1] == 'P' && bytes[2] == 'N';
     try {
       return DecodeSrgb8(bytes, is_png ? ".png" : ".jpg");
     } catch (const Error& error) {
-      Fail("a texture cannot be read: " + std::string(error.what()));
+      throw Error("a picture cannot be read: " + std::string(error.what()));
     }
   }
 
   std::filesystem::path file_;
   std::optional<LengthUnit> unit_;
   tinygltf::Model gltf_;
-  TexturedModel result_;
+  MeshReading reading_;
+  TexturedModel& result_ = reading_.textured;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  // CESIUM_RTC
+  std::set<std::string> unread_textures_;
   std::vector<int> own_order_;  // of each face in the model it was written from; -1 unknown
 };
 
 }  // namespace
 
-TexturedModel ReadGltf(const std::filesystem::path& file,
-                       std::optional<LengthUnit> unit,
-                       bool with_pages) {
+MeshReading ReadGltf(const std::filesystem::path& file,
+                     std::optional<LengthUnit> unit,
+                     bool with_pages) {
   return GltfReader(file, unit).Read(with_pages);
 }
 

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/face_number.h"
+#include "scene/face_outline.h"
 #include "scene/own_tiny_gltf.h"
 #include "scene/textured_model_io.h"
 
@@ -152,7 +154,8 @@ class GlbWriter {
     std::vector<float> normals;
     std::vector<float> uv;
     std::vector<uint32_t> indices;
-    tinygltf::Value::Array face_numbers;
+    tinygltf::Value::Array places;
+    tinygltf::Value::Array numbers;
     tinygltf::Value::Array corner_counts;
     tinygltf::Value::Array names;
     for (const int index : faces) {
@@ -160,14 +163,12 @@ class GlbWriter {
       const uint32_t first = static_cast<uint32_t>(positions.size() / 3);
       const Eigen::Vector3f normal =
           GltfFromWorld(ComputeFacePlane(model, index).normal_in_world).cast<float>();
-      std::map<int, uint32_t> vertex_of_point;
       for (size_t k = 0; k < face.points.size(); ++k) {
         const Eigen::Vector3d& point = model.points_in_world[static_cast<size_t>(face.points[k])];
         const Eigen::Vector3f position =
             (scale * GltfFromWorld(point) - center_m_).cast<float>().array() + 0.0f;  // no -0
         positions.insert(positions.end(), {position.x(), position.y(), position.z()});
         normals.insert(normals.end(), {normal.x(), normal.y(), normal.z()});
-        vertex_of_point[face.points[k]] = first + static_cast<uint32_t>(k);
         if (page < 0) continue;
         // Both have their origin at the top left corner, so there is nothing to flip.
         const Image8& picture = textured_.pages[static_cast<size_t>(page)].srgb8;
@@ -175,10 +176,11 @@ class GlbWriter {
         uv.push_back(static_cast<float>(texel.x() / picture.width));
         uv.push_back(static_cast<float>(texel.y() / picture.height));
       }
-      for (const std::array<int, 3>& triangle : TriangulateFace(model, index)) {
-        for (const int point : triangle) indices.push_back(vertex_of_point.at(point));
+      for (const std::array<int, 3>& triangle : TriangulateCorners(model, index)) {
+        for (const int corner : triangle) indices.push_back(first + static_cast<uint32_t>(corner));
       }
-      face_numbers.push_back(tinygltf::Value(index));
+      places.push_back(tinygltf::Value(index));
+      numbers.push_back(tinygltf::Value(FaceNumber(model, index)));
       corner_counts.push_back(tinygltf::Value(static_cast<int>(face.points.size())));
       names.push_back(tinygltf::Value(face.name));
     }
@@ -199,7 +201,11 @@ class GlbWriter {
     gltf_.accessors.push_back(std::move(accessor));
     primitive.indices = static_cast<int>(gltf_.accessors.size()) - 1;
     tinygltf::Value::Object notes;
-    notes["groundglass_faces"] = tinygltf::Value(face_numbers);
+    notes["groundglass_faces"] = tinygltf::Value(places);
+    // The faces' numbers in the model's file, where some of its faces are left out.
+    if (!FormatFaceNumbers(model).empty()) {
+      notes["groundglass_numbers"] = tinygltf::Value(numbers);
+    }
     notes["groundglass_corners"] = tinygltf::Value(corner_counts);
     notes["groundglass_names"] = tinygltf::Value(names);
     primitive.extras = tinygltf::Value(notes);

@@ -4,9 +4,11 @@
 
 #include "scene/error.h"
 #include "scene/frames.h"
+#include "scene/mend_faces.h"
 #include "scene/mesh_io.h"
 #include "scene/obj_io.h"
 #include "scene/text.h"
+#include "scene/textured_model_io.h"
 
 #include <string>
 
@@ -25,48 +27,68 @@ Eigen::Vector3d WorldFromMesh(const Eigen::Vector3d& point, MeshAxes axes) {
   return point;
 }
 
-}  // namespace
-
-ModelReading ReadModel(const std::filesystem::path& file, const ModelOptions& options) {
-  const std::string extension = LowerCase(file.extension().string());
-  if (extension == ".osu") {
-    ModelReading reading = ReadOsu(file);
-    if (options.unit) reading.model.unit = *options.unit;
-    return reading;
-  }
-  ModelReading reading;
-  PolygonModel& model = reading.model;
-  std::vector<int> lines;
-  if (extension == ".glb" || extension == ".gltf") {
-    model = ReadGltf(file, options.unit, false).model;
-  } else if (extension == ".obj" || extension == ".ply" || extension == ".stl") {
-    if (extension == ".obj") {
-      ObjReading obj = ReadObj(file);
-      model = std::move(obj.model);
-      if (obj.unit) model.unit = *obj.unit;
-      lines = std::move(obj.face_lines);
-    } else {
-      model = ReadPlainMesh(file);
-    }
-    for (Eigen::Vector3d& point : model.points_in_world) {
-      point = WorldFromMesh(point, options.mesh_axes);
-    }
-    if (options.unit) model.unit = *options.unit;
-  } else {
+MeshReading ReadMesh(const std::filesystem::path& file,
+                     const std::string& extension,
+                     const ModelOptions& options,
+                     bool with_pages) {
+  const bool is_gltf = extension == ".glb" || extension == ".gltf";
+  if (!is_gltf && extension != ".obj" && extension != ".ply" && extension != ".stl") {
     throw Error(file, "this kind of model is not read; expected .osu, .obj, .ply, .stl or .glb");
   }
-  const std::vector<int> usable = FindUsableFaces(model, file, lines, reading.warnings);
-  if (usable.empty()) {
-    throw Error(reading.warnings.empty() ? Error(file, "this model has no faces").what()
-                                         : reading.warnings.back());
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) throw Error(file, "no such model file");
+  if (is_gltf) return ReadGltf(file, options.unit, with_pages);
+  MeshReading mesh = extension == ".obj"   ? ReadTexturedObj(file, with_pages)
+                     : extension == ".ply" ? ReadPly(file)
+                                           : ReadStl(file);
+  for (Eigen::Vector3d& point : mesh.textured.model.points_in_world) {
+    point = WorldFromMesh(point, options.mesh_axes);
   }
-  KeepFaces(model, usable);
-  return reading;
+  return mesh;
+}
+
+}  // namespace
+
+TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
+                                       const ModelOptions& options,
+                                       bool with_pages) {
+  const std::string extension = LowerCase(file.extension().string());
+  TexturedModelReading result;
+  PolygonModel& model = result.textured.model;
+  std::vector<FaceTexture>& textures = result.textured.faces;
+  if (extension == ".osu") {
+    ModelReading osu = ReadOsu(file);
+    model = std::move(osu.model);
+    result.warnings = std::move(osu.warnings);
+  } else {
+    MeshReading mesh = ReadMesh(file, extension, options, with_pages);
+    result.textured = std::move(mesh.textured);
+    result.warnings = std::move(mesh.warnings);
+    MendedFaces mended = MendFaces(file, mesh.face_lines, model, textures);
+    WarnOfFaults(file, mesh.face_lines, mended);
+    if (mended.usable.empty()) {
+      throw Error(mended.faults.empty() ? Error(file, "this model has no faces").what()
+                                        : mended.warnings.back());
+    }
+    result.warnings.insert(
+        result.warnings.end(), mended.warnings.begin(), mended.warnings.end());
+    KeepFaces(mended.usable, model, textures);
+  }
+  if (options.unit && extension != ".glb" && extension != ".gltf") {
+    model.unit = *options.unit;
+    model.is_unit_assumed = false;
+  }
+  textures.resize(model.faces.size());
+  return result;
+}
+
+ModelReading ReadModel(const std::filesystem::path& file, const ModelOptions& options) {
+  TexturedModelReading reading = ReadTexturedModel(file, options, false);
+  return {std::move(reading.textured.model), std::move(reading.warnings)};
 }
 
 std::string FormatObj(const PolygonModel& model) {
-  std::string text = std::string("# Polygon model; x east, y north, z up.\n# unit: ") +
-                     UnitName(model.unit) + "\n";
+  std::string text = "# Polygon model; x east, y north, z up.\n" + ObjModelComments(model);
   for (const Eigen::Vector3d& point : model.points_in_world) {
     text += "v " + FormatNumber(point.x() + 0.0) + " " + FormatNumber(point.y() + 0.0) + " " +
             FormatNumber(point.z() + 0.0) + "\n";

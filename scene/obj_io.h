@@ -7,17 +7,16 @@
 #include <Eigen/Dense>
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace groundglass {
 
 // An OBJ file as it is written, before anything is decided about its axes. `model` holds the
-// file's own coordinates; names come from `g` and `o`.
+// file's own coordinates; names come from `g` and `o` and run to the end of the line, `#` and
+// blanks included. Lines that end in a backslash go on in the next.
 struct ObjReading {
   PolygonModel model;
-  std::optional<LengthUnit> unit;                     // of a "# unit: ft" comment
   std::vector<int> face_lines;                        // for messages
   std::vector<std::string> libraries;                 // `mtllib`
   std::vector<std::string> materials;                 // `usemtl` of each face; may be empty
@@ -28,7 +27,10 @@ struct ObjReading {
 // Throws Error naming file and line. Geometry of the faces is not yet checked.
 ObjReading ReadObj(const std::filesystem::path& file);
 
-// A face's name as a group's: on one line, without the comment mark; "default" for none.
+// A face's name as a group's: on one line; "default" for none.
 std::string ObjGroupName(std::string name);
+
+// The comments above a model's points that give back its unit and its faces' numbers.
+std::string ObjModelComments(const PolygonModel& model);
 
 }  // namespace groundglass

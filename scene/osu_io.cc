@@ -3,8 +3,9 @@
 #include "scene/osu_io.h"
 
 #include "scene/error.h"
+#include "scene/face_number.h"
 #include "scene/frames.h"
-#include "scene/model_io.h"
+#include "scene/mend_faces.h"
 #include "scene/text.h"
 #include "scene/view_io.h"
 
@@ -43,6 +44,7 @@ std::vector<double> FieldNumbers(const std::filesystem::path& name,
 void ReadModelComments(const std::filesystem::path& name,
                        const std::vector<TextLine>& lines,
                        PolygonModel& model) {
+  model.is_unit_assumed = true;
   for (const TextLine& line : lines) {
     if (const auto words = CommentField(line, "unit:")) {
       const std::string unit = words->empty() ? "" : LowerCase(words->front().text);
@@ -53,6 +55,7 @@ void ReadModelComments(const std::filesystem::path& name,
                     "unit " + Quote(unit) + " is not known; expected " + UnitNames());
       }
       model.unit = *known;
+      model.is_unit_assumed = false;
     } else if (const auto origin = CommentField(line, "origin:")) {
       const std::vector<double> numbers =
           FieldNumbers(name, line.number, *origin, 3, "origin: LATITUDE LONGITUDE HEIGHT");
@@ -174,6 +177,7 @@ OsuReading ReadAll(const std::string& text, const std::filesystem::path& name) {
   std::vector<int> first_lines;
   std::vector<int> last_lines;
   std::map<int, int> faces_on_line;
+  std::vector<char> is_told(static_cast<size_t>(num_faces), 0);  // its fault is known already
   for (long long i = 0; i < num_faces; ++i) {
     const std::string face_name = "face " + std::to_string(i + 1);
     const long long corners = words.ReadInteger(face_name + ", its number of points");
@@ -183,6 +187,7 @@ OsuReading ReadAll(const std::string& text, const std::filesystem::path& name) {
           name, words.line(), face_name + " cannot have " + std::to_string(corners) + " points");
     }
     Face& face = model.faces.emplace_back();
+    face.number = static_cast<int>(i + 1);
     bool is_in_range = true;
     for (long long k = 0; k < corners; ++k) {
       const long long point = words.ReadInteger(face_name + ", point number");
@@ -199,7 +204,10 @@ OsuReading ReadAll(const std::string& text, const std::filesystem::path& name) {
       }
       face.points.push_back(static_cast<int>(point - 1));
     }
-    if (!is_in_range) face.points.clear();
+    if (!is_in_range) {
+      face.points.clear();
+      is_told[static_cast<size_t>(i)] = 1;
+    }
     last_lines.push_back(words.line());
     for (int line = first_lines.back(); line <= last_lines.back(); ++line) ++faces_on_line[line];
   }
@@ -222,15 +230,21 @@ OsuReading ReadAll(const std::string& text, const std::filesystem::path& name) {
       const auto named = NameBeforeFace(line);
       model.faces[i].name = named ? named->second : std::string(line.comment);
     }
-    if (model.faces[i].points.empty()) continue;
-    const FaceCheck check = CheckFace(model, static_cast<int>(i));
-    const std::string about = DescribeFace(model, static_cast<int>(i)) + " ";
-    if (!check.fault.empty()) {
-      result.faults.push_back(Error(name, first_lines[i], about + check.fault).what());
-    } else if (!check.warning.empty()) {
-      result.reading.warnings.push_back(Error(name, first_lines[i], about + check.warning).what());
+  }
+  for (const TextLine& line : lines) {
+    if (CommentField(line, "face numbers:")) {
+      ApplyFaceNumbers(line.comment.substr(line.comment.find(':') + 1), model);
     }
   }
+  std::vector<FaceTexture> no_textures;
+  MendedFaces mended = MendFaces(name, first_lines, model, no_textures);
+  for (const MendedFaces::Fault& fault : mended.faults) {
+    const auto face = static_cast<size_t>(fault.face);
+    if (is_told[face]) continue;
+    result.faults.push_back(Error(name, first_lines[face], fault.text).what());
+  }
+  result.reading.warnings = std::move(mended.warnings);
+  KeepFaces(mended.usable, model, no_textures);
   return result;
 }
 
@@ -280,6 +294,8 @@ std::string FormatOsu(const PolygonModel& model) {
             FormatNumber(place.longitude_deg) + " " + FormatNumber(place.height_m) + "\n";
     text += "% north: " + FormatNumber(place.north_deg) + "\n";
   }
+  const std::string numbers = FormatFaceNumbers(model);
+  if (!numbers.empty()) text += "% face numbers: " + numbers + "\n";
   text += "\n" + std::to_string(model.points_in_world.size()) + " " +
           std::to_string(model.faces.size()) + "\n\n";
   for (const Eigen::Vector3d& point : model.points_in_world) {

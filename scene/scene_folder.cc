@@ -3,6 +3,7 @@
 #include "scene/scene_folder.h"
 
 #include "scene/error.h"
+#include "scene/face_number.h"
 #include "scene/tags_csv.h"
 #include "scene/text.h"
 #include "scene/view_io.h"
@@ -276,7 +277,7 @@ class SceneReader {
   // Reads every pixel, since a damaged file may have a sound header.
   void DecodeAll() {
     const std::vector<Photograph>& photographs = result_.scene.photographs;
-    const size_t num_faces = result_.scene.model.faces.size();
+    const PolygonModel& model = result_.scene.model;
     std::vector<std::vector<std::string>> faults(photographs.size());
     tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
       const auto attempt = [&](auto read) {
@@ -291,13 +292,8 @@ class SceneReader {
       if (photograph.mask_file) attempt([&] { ReadLabels(*photograph.mask_file); });
       if (photograph.faces_file) {
         attempt([&] {
-          const Image16 labels = ReadLabels(*photograph.faces_file);
-          const uint16_t highest = *std::max_element(labels.values.begin(), labels.values.end());
-          if (num_faces > 0 && highest > num_faces) {
-            throw Error(*photograph.faces_file,
-                        "face number " + std::to_string(highest) + ", but the model has " +
-                            std::to_string(num_faces) + " faces");
-          }
+          const Image16 numbers = ReadLabels(*photograph.faces_file);
+          if (!model.faces.empty()) LabelsFromNumbers(model, numbers, *photograph.faces_file);
         });
       }
     });

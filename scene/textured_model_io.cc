@@ -3,74 +3,12 @@
 #include "scene/textured_model_io.h"
 
 #include "scene/atomic_file.h"
-#include "scene/error.h"
-#include "scene/mesh_io.h"
 #include "scene/obj_io.h"
 #include "scene/text.h"
-#include "scene/view_io.h"
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <map>
-
 namespace groundglass {
-namespace {
-
-// The picture of each material in a material library.
-std::map<std::string, std::filesystem::path> ReadMaterialPictures(
-    const std::filesystem::path& library) {
-  std::map<std::string, std::filesystem::path> pictures;
-  const std::string text = ReadTextFile(library);
-  std::string material;
-  for (const TextLine& line : SplitLines(text, '#')) {
-    if (line.tokens.size() < 2) continue;
-    const std::string keyword = LowerCase(line.tokens[0].text);
-    // The rest of the line, for names with blanks; after options only the last word is the file.
-    const std::string_view last = line.tokens.back().text;
-    const char* begin =
-        line.tokens[1].text.front() == '-' ? last.data() : line.tokens[1].text.data();
-    std::string rest(begin, static_cast<size_t>(last.data() + last.size() - begin));
-    if (keyword == "newmtl") {
-      material = rest;
-    } else if (keyword == "map_kd") {
-      std::replace(rest.begin(), rest.end(), '\\', '/');
-      pictures[material] = library.parent_path() / rest;
-    }
-  }
-  return pictures;
-}
-
-TexturedModel ReadTexturedObj(const std::filesystem::path& file) {
-  ObjReading obj = ReadObj(file);
-  TexturedModel textured;
-  textured.model = std::move(obj.model);
-  if (obj.unit) textured.model.unit = *obj.unit;
-  std::map<std::string, std::filesystem::path> pictures;
-  for (const std::string& library : obj.libraries) {
-    pictures.merge(ReadMaterialPictures(file.parent_path() / library));
-  }
-  std::map<std::filesystem::path, int> page_of_picture;
-  for (size_t i = 0; i < textured.model.faces.size(); ++i) {
-    FaceTexture& face = textured.faces.emplace_back();
-    const auto picture = pictures.find(obj.materials[i]);
-    if (picture == pictures.end() || obj.face_texture_points[i].empty()) continue;
-    const auto [page, is_new] =
-        page_of_picture.emplace(picture->second, static_cast<int>(textured.pages.size()));
-    if (is_new) textured.pages.emplace_back().srgb8 = ReadSrgb8(picture->second);
-    face.page = page->second;
-    const Image8& srgb8 = textured.pages[static_cast<size_t>(face.page)].srgb8;
-    for (const int point : obj.face_texture_points[i]) {
-      const Eigen::Vector2d& uv = obj.texture_points[static_cast<size_t>(point)];
-      // OBJ counts v upwards from the picture's bottom edge.
-      face.corners_texel.emplace_back(uv.x() * srgb8.width, (1 - uv.y()) * srgb8.height);
-    }
-  }
-  return textured;
-}
-
-}  // namespace
-
 JpegPages EncodePages(const TexturedModel& model) {
   JpegPages pages(model.pages.size());
   tbb::parallel_for(size_t{0}, pages.size(), [&](size_t i) {
@@ -104,9 +42,8 @@ void WriteTexturedObj(const std::filesystem::path& file,
   library.replace_extension(".mtl");
   WriteFileAtomically(library, materials);
 
-  std::string text = std::string("# Groundglass: x east, y north, z up.\n# unit: ") +
-                     UnitName(model.model.unit) + "\nmtllib " +
-                     library.filename().string() + "\n";
+  std::string text = "# Groundglass: x east, y north, z up.\n" + ObjModelComments(model.model) +
+                     "mtllib " + library.filename().string() + "\n";
   for (const Eigen::Vector3d& point : model.model.points_in_world) {
     text += "v " + FormatNumber(point.x() + 0.0) + " " + FormatNumber(point.y() + 0.0) + " " +
             FormatNumber(point.z() + 0.0) + "\n";
@@ -142,29 +79,6 @@ void WriteTexturedObj(const std::filesystem::path& file,
     text += "\n";
   }
   WriteFileAtomically(file, text);
-}
-
-TexturedModel ReadTexturedModel(const std::filesystem::path& file) {
-  const std::string extension = LowerCase(file.extension().string());
-  TexturedModel textured;
-  if (extension == ".glb" || extension == ".gltf") {
-    textured = ReadGltf(file, std::nullopt, true);
-  } else if (extension == ".obj") {
-    textured = ReadTexturedObj(file);
-  } else {
-    textured.model = ReadModel(file).model;
-    textured.faces.resize(textured.model.faces.size());
-    return textured;
-  }
-  std::vector<std::string> warnings;
-  const std::vector<int> usable = FindUsableFaces(textured.model, file, {}, warnings);
-  if (usable.empty()) throw Error(file, "this model has no usable face");
-  KeepFaces(textured.model, usable);
-  std::vector<FaceTexture> faces;
-  for (const int face : usable)
-    faces.push_back(std::move(textured.faces[static_cast<size_t>(face)]));
-  textured.faces = std::move(faces);
-  return textured;
 }
 
 }  // namespace groundglass

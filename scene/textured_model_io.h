@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/image_io.h"
+#include "scene/model_io.h"
 #include "scene/textured_model.h"
 
 #include <cstdint>
@@ -29,7 +30,16 @@ void WriteTexturedObj(const std::filesystem::path& file,
                       const std::string& image_extension = ".jpg",
                       const JpegPages& pages = {});
 
-// Reads .glb, .gltf or .obj with its textures, or any plain model (no pages then).
-TexturedModel ReadTexturedModel(const std::filesystem::path& file);
+// A model with its pages, and what was odd about it.
+struct TexturedModelReading {
+  TexturedModel textured;  // `faces`: one for each of the model's
+  std::vector<std::string> warnings;
+};
+
+// Reads any model as ReadModel does, with its textures if it is .glb, .gltf or .obj. Without
+// `with_pages` pictures are not opened.
+TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
+                                       const ModelOptions& options = {},
+                                       bool with_pages = true);
 
 }  // namespace groundglass

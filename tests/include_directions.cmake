@@ -32,7 +32,7 @@ endforeach()
 
 # Third parties by the first part of their path, and the files (regular expression on the path in
 # the tree) that may include them.
-set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI assimp
+set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI
     nlohmann openssl tbb stb sys)
 set(owners_Eigen "\\.(h|cc)$")
 set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|datasets-synthetic)/.*\\.cc$")
@@ -43,7 +43,6 @@ set(owners_apriltag "^calibrate/.*\\.cc$")
 set(owners_GL "^viewer/.*\\.cc$")
 set(owners_EGL "^viewer/.*\\.cc$")
 set(owners_CLI "^cli/.*\\.(h|cc)$")
-set(owners_assimp "^scene/.*_io\\.cc$")
 set(owners_nlohmann "\\.cc$")
 set(owners_openssl "^scene/output_folder\\.cc$")
 set(owners_tbb "\\.cc$")

@@ -3,6 +3,7 @@
 #include "viewer/render_mesh.h"
 
 #include "scene/error.h"
+#include "scene/face_outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,18 @@ double DistanceToTriangle(const Eigen::Vector3d& a,
 
 }  // namespace
 
+bool RenderMesh::IsRepeated(int page) const {
+  constexpr float kBeyond = 0.001f;  // rounding is not meant
+  for (const RenderBatch& batch : batches) {
+    if (batch.page != page) continue;
+    for (int i = 0; i < batch.num_vertices; ++i) {
+      const Eigen::Vector2f& on_page = vertices[batch.first_vertex + i].on_page;
+      if (on_page.minCoeff() < -kBeyond || on_page.maxCoeff() > 1 + kBeyond) return true;
+    }
+  }
+  return false;
+}
+
 RenderMesh MakeRenderMesh(const TexturedModel& textured) {
   const PolygonModel& model = textured.model;
   if (!textured.faces.empty() && textured.faces.size() != model.faces.size()) {
@@ -79,12 +92,10 @@ RenderMesh MakeRenderMesh(const TexturedModel& textured) {
     batch.first_vertex = static_cast<int>(mesh.vertices.size());
     for (const int face : faces) {
       const Eigen::Vector3f normal = ComputeFacePlane(model, face).normal_in_world.cast<float>();
-      // Which corner of the face each of its points is, for the texels.
-      std::map<int, int> corner_of_point;
       const std::vector<int>& points = model.faces[face].points;
-      for (size_t i = 0; i < points.size(); ++i) corner_of_point[points[i]] = static_cast<int>(i);
-      for (const std::array<int, 3>& triangle : TriangulateFace(model, face)) {
-        for (const int point : triangle) {
+      for (const std::array<int, 3>& triangle : TriangulateCorners(model, face)) {
+        for (const int corner : triangle) {
+          const int point = points[corner];
           RenderVertex vertex;
           vertex.position = (model.points_in_world[point] - mesh.origin_in_world).cast<float>();
           vertex.normal = normal;
@@ -92,7 +103,7 @@ RenderMesh MakeRenderMesh(const TexturedModel& textured) {
           if (page >= 0) {
             const Image8& picture = textured.pages[page].srgb8;
             vertex.on_page = textured.faces[face]
-                                 .corners_texel[corner_of_point[point]]
+                                 .corners_texel[corner]
                                  .cwiseQuotient(Eigen::Vector2d(picture.width, picture.height))
                                  .cast<float>();
           }

@@ -32,6 +32,9 @@ struct RenderMesh {
   Eigen::Vector3d origin_in_world = Eigen::Vector3d::Zero();
   std::vector<RenderVertex> vertices;
   std::vector<RenderBatch> batches;
+
+  // Whether faces reach beyond the page: other programs lay a picture of bricks side by side.
+  bool IsRepeated(int page) const;
 };
 
 // Error if a face's texture names no page or has not one texel for each corner.

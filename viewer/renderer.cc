@@ -3,6 +3,7 @@
 #include "viewer/renderer.h"
 
 #include "scene/error.h"
+#include "scene/face_number.h"
 #include "scene/feature_edges.h"
 #include "scene/visibility.h"
 #include "viewer/edge_drawing.h"
@@ -115,6 +116,10 @@ struct Renderer::Impl {
     for (const TexturePage& page : textured.pages) {
       pages.push_back(UploadTexturePage(
           gl, page.srgb8, static_cast<int>(pages.size()) + 1, max_page_px, warnings));
+      if (mesh.IsRepeated(static_cast<int>(pages.size()) - 1)) {
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+      }
     }
     frame_array = GlVertexArray(gl);
     grid = GlTexture(gl);
@@ -329,7 +334,7 @@ Image8 Renderer::Render(const Camera& camera, const RenderOptions& options) {
   if (options.edges || with_numbers || options.mode == DrawMode::kWireframe) {
     impl.DrawEdgesOver(picture, camera, options);
   }
-  if (with_numbers) DrawFaceNumbers(picture, RenderLabels(camera));
+  if (with_numbers) DrawFaceNumbers(picture, NumbersFromLabels(impl.model, RenderLabels(camera)));
   return picture;
 }
 

@@ -81,7 +81,7 @@ TEST(WriteBake, SixteenBitsInAreSixteenBitsOut) {
   WriteBake(BakeTextures(model, photographs, options), folder / "out", ".tif");
   // Read back as another program would: places from the OBJ, codes from the picture.
   const Image16 page = ReadSrgb16(folder / "out" / "model_0.tif");
-  TexturedModel textured = ReadTexturedModel(folder / "out" / "model.obj");
+  TexturedModel textured = ReadTexturedModel(folder / "out" / "model.obj").textured;
   textured.pages[0].provenance = Image16(page.width, page.height, 1, 1);
   long num_texels = 0;
   std::set<uint16_t> codes;

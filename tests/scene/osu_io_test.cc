@@ -97,8 +97,6 @@ INSTANTIATE_TEST_SUITE_P(
                  "model.osu:5: face 1 (sill) has 2 points; a face needs at least 3"},
         BadModel{"3 1\n0 0 0\n1 0 0\n0 1 0\n4 1 2 3 2",
                  "model.osu:5: face 1 has point 2 more than once"},
-        BadModel{"4 1\n0 0 0\n1 0 0\n1 0 0\n0 1 0\n4 1 2 3 4",
-                 "model.osu:6: face 1 has a repeated point: 2 and 3 are at the same place"},
         BadModel{"3 1\n0 0 0\n1 1 1\n2 2 2\n3 1 2 3",
                  "model.osu:5: face 1 has no area: its points lie on a line, or its parts cancel "
                  "out"},
@@ -108,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadModel{"3 1\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n7",
                  "model.osu:6: there is more after the last face"},
         BadModel{"% unit: cubit\n3 1 0 0 0 1 0 0 0 1 0 3 1 2 3",
-                 "model.osu:1: unit 'cubit' is not known; expected ft or m"},
+                 "model.osu:1: unit 'cubit' is not known; expected ft, m, mm, cm, in or us-ft"},
         BadModel{"% origin: 40\n3 1 0 0 0 1 0 0 0 1 0 3 1 2 3",
                  "model.osu:1: expected '% origin: LATITUDE LONGITUDE HEIGHT'"}));
 
@@ -118,6 +116,15 @@ TEST(FindOsuFaults, TellsEveryFaultyFace) {
   EXPECT_THAT(faults,
               ElementsAre("m.osu:6: face 1: point number 9 is outside 1 to 4",
                           "m.osu:8: face 3 has point 1 more than once"));
+}
+
+TEST(ParseOsu, DropsRepeatedAndClosingCornersWithANote) {
+  const ModelReading reading =
+      ParseOsu("4 1\n0 0 0\n1 0 0\n1 0 0\n0 1 0\n5 1 2 3 4 1 % sill", "model.osu");
+  EXPECT_THAT(reading.model.faces[0].points, ElementsAre(0, 1, 3));
+  EXPECT_THAT(reading.warnings,
+              ElementsAre("model.osu: 1 face repeats a corner or closes its ring; the corner is "
+                          "dropped: face 1 (sill), line 6"));
 }
 
 TEST(ParseOsu, WarnsOfAFaceOutOfPlane) {

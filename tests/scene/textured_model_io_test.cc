@@ -71,7 +71,7 @@ TEST(TexturedObj, RoundTrips) {
   const TemporaryFolder folder;
   TexturedModel written = SampleModel();
   WriteTexturedObj(folder / "my model.obj", written, ".png");
-  const TexturedModel read = ReadTexturedModel(folder / "my model.obj");
+  const TexturedModel read = ReadTexturedModel(folder / "my model.obj").textured;
   ExpectSame(written, read, 0, 1e-12);
   EXPECT_EQ(read.model.points_in_world, written.model.points_in_world);
   EXPECT_EQ(read.pages[read.faces[0].page].srgb8.values, written.pages[1].srgb8.values);
@@ -85,7 +85,7 @@ TEST(Glb, GivesPolygonsTexelsUnitAndNamesBack) {
   const TemporaryFolder folder;
   const TexturedModel written = SampleModel();
   WriteGlb(folder / "model.glb", written);
-  const TexturedModel read = ReadTexturedModel(folder / "model.glb");
+  const TexturedModel read = ReadTexturedModel(folder / "model.glb").textured;
   ExpectSame(written, read, 1e-6, 1e-5);
   ASSERT_TRUE(read.model.georeference);
   EXPECT_EQ(read.model.georeference->north_deg, 12);
@@ -124,7 +124,7 @@ TEST(Glb, FarFromTheOriginKeepsItsPrecision) {
     point += Eigen::Vector3d(456789.125, 5123456.5, 230);
   }
   WriteGlb(folder / "far.glb", far);
-  ExpectSame(far, ReadTexturedModel(folder / "far.glb"), 2e-6, 1e-5);
+  ExpectSame(far, ReadTexturedModel(folder / "far.glb").textured, 2e-6, 1e-5);
 }
 
 TEST(Glb, SameModelGivesTheSameBytes) {
@@ -153,7 +153,8 @@ TEST(Glb, DamagedFilesAreErrorsAndNoCrash) {
 
 TEST(ReadTexturedModel, PlainModelsHaveNoPages) {
   const TexturedModel brick = ReadTexturedModel(std::string(GROUNDGLASS_SOURCE_DIR) +
-                                                "/datasets-synthetic/brick/model.osu");
+                                                "/datasets-synthetic/brick/model.osu")
+                                  .textured;
   EXPECT_EQ(brick.faces.size(), 70u);
   EXPECT_TRUE(brick.pages.empty());
   EXPECT_EQ(brick.faces[0].page, -1);
