@@ -18,7 +18,7 @@ constexpr double kOutlierFactor = 6;
 
 // Whitened residual of a tag's four corners, in units of an edge point's noise:
 //   r = S (p - o),  S^T S = information,  p_i = project(lens, R X_i + t)
-// with project as in scene/camera.h and view_tag.h:
+// with project as in scene/camera_model.h and view_tag.h:
 //   f_x = W / 2 / tan(v / 2), f_y = f_x a H / W, c = (W / 2 + shift_x W, H / 2 + shift_y W f_y/f_x)
 // Blocks: lens 6 (LensVector), rotation 4 (cam_from_board, unit quaternion x y z w), translation 3
 // (the board's unit). Residual 8. A corner behind the camera fails the evaluation.
@@ -41,6 +41,9 @@ struct TagResidual {
     const T focal_y_px = focal_x_px * lens[1] * T(height_px / width_px);
     const T center_x_px = T(width_px) * (0.5 + lens[2]);
     const T center_y_px = T(0.5 * height_px) + lens[3] * T(width_px) * focal_y_px / focal_x_px;
+    Distortion<T> distortion;
+    distortion.k1 = lens[4];
+    distortion.k2 = lens[5];
     for (int corner = 0; corner < 4; ++corner) {
       // The board is the plane z = 0.
       std::array<T, 3> in_cam;
@@ -49,12 +52,10 @@ struct TagResidual {
                        cam_from_board(axis, 1) * corners_on_board(1, corner) + translation[axis];
       }
       if (in_cam[2] <= T(0)) return false;
-      const T x = in_cam[0] / in_cam[2];
-      const T y = in_cam[1] / in_cam[2];
-      const T r2 = x * x + y * y;
-      const T s = 1.0 + lens[4] * r2 + lens[5] * r2 * r2;
-      (*projected_px)[2 * corner] = focal_x_px * s * x + center_x_px;
-      (*projected_px)[2 * corner + 1] = focal_y_px * s * y + center_y_px;
+      const Eigen::Matrix<T, 2, 1> distorted =
+          Distort<T>(distortion, {in_cam[0] / in_cam[2], in_cam[1] / in_cam[2]});
+      (*projected_px)[2 * corner] = focal_x_px * distorted[0] + center_x_px;
+      (*projected_px)[2 * corner + 1] = focal_y_px * distorted[1] + center_y_px;
     }
     return true;
   }

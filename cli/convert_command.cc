@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "scene/colmap_io.h"
 #include "scene/convert.h"
 #include "scene/error.h"
 
@@ -24,10 +25,10 @@ struct ConvertArguments {
 
 ConvertResult Convert(const ConvertArguments& arguments) {
   const std::filesystem::path input = arguments.input;
-  if (std::filesystem::exists(input / "cameras.txt")) {
-    return ConvertColmapToViews(input, arguments.output, arguments.lookat_distance);
-  }
   if (std::filesystem::is_directory(input)) {
+    if (FindColmapModel(input)) {
+      return ConvertColmapToViews(input, arguments.output, arguments.lookat_distance);
+    }
     const std::filesystem::path images =
         arguments.images.empty() ? input / "../images" : std::filesystem::path(arguments.images);
     return ConvertViewsToColmap(input, arguments.output, images);
@@ -69,7 +70,7 @@ void AddConvertCommand(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand(
       "convert",
       "Convert between formats: a model (.osu .obj .ply .stl .gltf .glb to .osu .obj .glb), or\n"
-      "cameras (a COLMAP text model to a folder of .view files, and back)");
+      "cameras (a COLMAP model, text or binary, to a folder of .view files, and back)");
   command->add_option("input", arguments->input, "a model, or a folder of cameras")->required();
   command->add_option("output", arguments->output, "a model, or a folder for cameras")->required();
   command->add_option("--frame", arguments->frame, "axes of an OBJ, PLY or STL file")

@@ -2,8 +2,10 @@
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
 #include "cli/commands.h"
+#include "scene/error.h"
 #include "scene/model_io.h"
 #include "scene/output_folder.h"
+#include "scene/pose_check.h"
 #include "scene/registration_io.h"
 
 #include <nlohmann/json.hpp>
@@ -29,23 +31,16 @@ struct InvrenderArguments {
 
 // The photographs with their cameras. Verdicts count where `register` left them beside the views.
 std::vector<BakePhotograph> Select(const InvrenderArguments& arguments, const Scene& scene) {
-  std::vector<BakePhotograph> photographs;
-  if (!arguments.views_folder) {
-    std::vector<NamedCamera> cameras;
-    for (const Photograph& photograph : scene.photographs) {
-      cameras.push_back(
-          {photograph.name,
-           CameraFromTag(photograph.tag, photograph.size.width, photograph.size.height)});
-    }
-    photographs = SelectPhotographs(scene, cameras);
-  } else {
+  std::vector<BakePhotograph> photographs = SelectPhotographs(scene);
+  if (arguments.views_folder && scene.camera_files.empty()) {
     const std::filesystem::path folder = std::filesystem::absolute(*arguments.views_folder);
-    const std::filesystem::path verdicts = folder.lexically_normal() / ".." / "registration.json";
-    const bool is_colmap = std::filesystem::exists(folder / "images.txt");
-    photographs =
-        !is_colmap && std::filesystem::exists(verdicts)
-            ? SelectPhotographs(scene, ReadRegistrations(verdicts), arguments.bake.accepted_only)
-            : SelectPhotographs(scene, ReadCameras(scene, folder));
+    for (const std::filesystem::path& beside : {folder, folder.lexically_normal() / ".."}) {
+      const std::filesystem::path verdicts = beside / "registration.json";
+      if (!std::filesystem::exists(verdicts)) continue;
+      photographs =
+          SelectPhotographs(scene, ReadRegistrations(verdicts), arguments.bake.accepted_only);
+      break;
+    }
   }
   NarrowPhotographs(arguments.bake, scene, photographs);
   return photographs;
@@ -72,6 +67,9 @@ Manifest Describe(const InvrenderArguments& arguments,
     manifest.sha256_of_inputs["--as-photographed/" +
                               arguments.earlier_model_file->filename().string()] =
         HashFile(*arguments.earlier_model_file);
+  }
+  for (const std::filesystem::path& file : scene.camera_files) {
+    manifest.sha256_of_inputs["--views/" + file.filename().string()] = HashFile(file);
   }
   const std::filesystem::path pairs = scene.folder / "pairs.csv";
   if (std::filesystem::exists(pairs)) manifest.sha256_of_inputs["pairs.csv"] = HashFile(pairs);
@@ -122,10 +120,12 @@ int RunInvrender(const InvrenderArguments& arguments) {
   SceneOptions scene_options;
   scene_options.model_file = arguments.model_file;
   scene_options.model.unit = arguments.common.unit;
+  scene_options.views = arguments.views_folder;
   const Scene scene = ReadScene(arguments.scene_folder, scene_options);
   for (const std::string& warning : scene.warnings) {
     std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
+  RequireSoundPoses(scene);
   const std::vector<BakePhotograph> photographs = Select(arguments, scene);
   if (arguments.common.dry_run) {
     std::printf("would texture %zu faces from %zu photographs into %s\n",
@@ -148,6 +148,11 @@ int RunInvrender(const InvrenderArguments& arguments) {
   }
   const BakeResult result =
       BakeTextures(scene.model, photographs, options, MakeProgress(arguments.common, "texture"));
+  if (result.coverage.CoveredShare() == 0) {
+    throw Error("none of the " + std::to_string(photographs.size()) +
+                " photographs shows the front of a face that is to be textured, so nothing is; "
+                "groundglass check SCENE -o DIR draws what the scene's own tags see");
+  }
   WriteBake(result, arguments.out_folder, "." + arguments.bake.format);
   WriteTilesIfAsked(arguments.bake, scene.model, photographs, arguments.out_folder);
   PrintSummary(result, photographs.size(), arguments.common.json);
@@ -165,8 +170,8 @@ void AddInvrenderCommand(CLI::App& app, int& exit_status) {
       ->required();
   command->add_option("--views",
                       arguments->views_folder,
-                      ".view files or a COLMAP text model in place of the scene's own tags; "
-                      "verdicts in a registration.json beside it are heeded");
+                      ".view files or a COLMAP model (text, binary, sparse/0) in place of the "
+                      "scene's own tags; verdicts in a registration.json beside views are heeded");
   command->add_option("--model", arguments->model_file, "in place of the one in the scene folder");
   command->add_option("--as-photographed",
                       arguments->earlier_model_file,

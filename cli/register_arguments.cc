@@ -7,6 +7,7 @@
 #include "register/select_photographs.h"
 #include "scene/frames.h"
 #include "scene/image_io.h"
+#include "scene/pose_check.h"
 #include "viewer/overlay.h"
 
 #include <tbb/parallel_for.h>
@@ -38,6 +39,10 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
   command->add_option("scene", arguments.scene_folder, "scene folder: model, views/, images/")
       ->required();
   command->add_option("-o,--out", arguments.out_folder, "where to write")->required();
+  command->add_option("--views",
+                      arguments.views_folder,
+                      "a COLMAP model (text, binary, sparse/0) or a folder of .view files in place "
+                      "of the scene's own tags; say with --sigma-... how good they are");
   command->add_option("--model", arguments.model_file, "the model, in place of the scene's own");
   command->add_option("--lens", arguments.lens_file, "lens file, as `calibrate board` writes it");
   command->add_flag("--digital",
@@ -113,10 +118,12 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments, const CommonOption
   SceneOptions options;
   options.model_file = arguments.model_file;
   options.model.unit = common.unit;
+  options.views = arguments.views_folder;
   Scene scene = ReadScene(arguments.scene_folder, options);
   for (const std::string& warning : scene.warnings) {
     std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
+  RequireSoundPoses(scene);
   RequirePhotographs(scene, arguments.only, "option --only");
   RequirePhotographs(scene, arguments.options.overrule.accept, "option --accept");
   RequirePhotographs(scene, arguments.options.overrule.reject, "option --reject");
@@ -148,6 +155,7 @@ Manifest DescribeInputs(const std::string& command,
   add(scene.model_file);
   if (arguments.lens_file) add(*arguments.lens_file);
   if (arguments.points_file) add(*arguments.points_file);
+  for (const std::filesystem::path& file : scene.camera_files) add(file);
   for (const Photograph& photograph : scene.photographs) {
     add(photograph.image_file);
     if (!photograph.view_file.empty()) add(photograph.view_file);

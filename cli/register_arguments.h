@@ -20,6 +20,7 @@ namespace groundglass {
 struct RegisterArguments {
   std::filesystem::path scene_folder;
   std::filesystem::path out_folder;
+  std::optional<std::filesystem::path> views_folder;  // cameras in place of the scene's tags
   std::optional<std::filesystem::path> model_file;
   std::optional<std::filesystem::path> lens_file;
   std::optional<std::filesystem::path> points_file;

@@ -3,6 +3,7 @@
 #include "datasets-synthetic/truth.h"
 
 #include "scene/error.h"
+#include "scene/image_paths.h"
 #include "scene/scene_folder.h"
 #include "scene/view_io.h"
 
@@ -19,9 +20,12 @@ void SortByName(std::vector<NamedCamera>& cameras) {
   });
 }
 
-std::vector<NamedCamera> ReadColmapCamerasByStem(const fs::path& folder) {
+std::vector<NamedCamera> ReadColmapCamerasByName(const fs::path& folder) {
   std::vector<NamedCamera> cameras = ReadColmapModel(folder);
-  for (NamedCamera& camera : cameras) camera.name = fs::path(camera.name).stem().string();
+  std::vector<std::string> images;
+  for (const NamedCamera& camera : cameras) images.push_back(camera.name);
+  const std::vector<std::string> names = NamePhotographs(images);
+  for (size_t i = 0; i < cameras.size(); ++i) cameras[i].name = names[i];
   SortByName(cameras);
   return cameras;
 }
@@ -46,7 +50,7 @@ Truth ReadTruth(const fs::path& folder) {
   }
   Truth truth;
   truth.folder = folder;
-  truth.cameras = ReadColmapCamerasByStem(folder / "cameras");
+  truth.cameras = ReadColmapCamerasByName(folder / "cameras");
   for (const fs::path& file : FindFiles(folder / "novel", ".view")) {
     NovelView view;
     view.name = file.stem().string();
@@ -86,11 +90,11 @@ std::vector<NamedCamera> ReadFoundCameras(const fs::path& folder, const Truth& t
     return cameras;
   }
   for (const fs::path& candidate : {folder, folder / "cameras"}) {
-    if (fs::exists(candidate / "images.txt")) return ReadColmapCamerasByStem(candidate);
+    if (FindColmapModel(candidate)) return ReadColmapCamerasByName(candidate);
   }
   // What `invrender` writes has a model to judge, and no cameras of its own.
   if (fs::exists(folder / "model.glb")) return {};
-  throw Error(folder, "no cameras here; expected views/*.view, *.view, or a COLMAP text model");
+  throw Error(folder, "no cameras here; expected views/*.view, *.view, or a COLMAP model");
 }
 
 }  // namespace groundglass

@@ -6,7 +6,6 @@
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/textured_model_io.h"
-#include "scene/view_io.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
@@ -81,22 +80,13 @@ std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
   return selected;
 }
 
-std::vector<NamedCamera> ReadCameras(const Scene& scene, const std::filesystem::path& folder) {
-  if (std::filesystem::exists(folder / "images.txt")) return ReadColmapModel(folder);
-  std::vector<NamedCamera> cameras;
+std::vector<BakePhotograph> SelectPhotographs(const Scene& scene) {
+  std::vector<BakePhotograph> selected;
   for (const Photograph& photograph : scene.photographs) {
-    const std::filesystem::path file = folder / (photograph.name + ".view");
-    if (!std::filesystem::exists(file)) continue;
-    cameras.push_back(
-        {photograph.name,
-         CameraFromTag(ReadView(file), photograph.size.width, photograph.size.height)});
+    selected.push_back(MakeBakePhotograph(
+        photograph, CameraFromTag(photograph.tag, photograph.size.width, photograph.size.height)));
   }
-  if (cameras.empty()) {
-    throw Error(folder,
-                "expected .view files named after the scene's photographs, or a COLMAP text "
-                "model (cameras.txt, images.txt)");
-  }
-  return cameras;
+  return selected;
 }
 
 void WriteBake(const BakeResult& result,

@@ -24,9 +24,8 @@ std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
 std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
                                               const std::vector<NamedCamera>& cameras);
 
-// Cameras from a folder: a COLMAP text model, or .view files named after the photographs.
-// Throws Error if it holds neither.
-std::vector<NamedCamera> ReadCameras(const Scene& scene, const std::filesystem::path& folder);
+// All of the scene's photographs, with the cameras that their tags describe.
+std::vector<BakePhotograph> SelectPhotographs(const Scene& scene);
 
 // Writes model.glb, model.obj with .mtl and pages (`page_extension`: .jpg, .png, .tif or .exr),
 // coverage.json, and provenance_N.png. Pages that an earlier bake left there and this one does not

@@ -245,13 +245,7 @@ std::optional<Sighting> PreparedPhoto::Sight(const ChartInCamera& view,
   Eigen::Matrix2d n_from_plane;
   n_from_plane.col(0) = n_from_cam * view.right_in_cam;
   n_from_plane.col(1) = n_from_cam * view.down_in_cam;
-  const double r2 = n.squaredNorm();
-  const double s = 1 + r2 * (camera_.k1 + r2 * camera_.k2);
-  const double ds = 2 * (camera_.k1 + 2 * camera_.k2 * r2);
-  Eigen::Matrix2d image_from_n = s * Eigen::Matrix2d::Identity() + ds * n * n.transpose();
-  image_from_n.row(0) *= camera_.focal_x_px;
-  image_from_n.row(1) *= camera_.focal_y_px;
-  sighting.px_from_unit = image_from_n * n_from_plane;
+  sighting.px_from_unit = ImageFromNormalisedDerivative(camera_, n) * n_from_plane;
   return sighting;
 }
 
@@ -259,13 +253,7 @@ Eigen::Vector2d PreparedPhoto::Locate(const ChartInCamera& view,
                                       const Eigen::Vector2d& plane_point) const {
   const Eigen::Vector3d in_cam =
       view.origin_in_cam + plane_point.x() * view.right_in_cam + plane_point.y() * view.down_in_cam;
-  const double inverse_depth = 1 / in_cam.z();
-  const double x = in_cam.x() * inverse_depth;
-  const double y = in_cam.y() * inverse_depth;
-  const double r2 = x * x + y * y;
-  const double s = 1 + r2 * (camera_.k1 + r2 * camera_.k2);
-  return {camera_.focal_x_px * s * x + camera_.center_x_px,
-          camera_.focal_y_px * s * y + camera_.center_y_px};
+  return ImageFromNormalised(camera_, in_cam.hnormalized());
 }
 
 double PreparedPhoto::Quality(const Sighting& sighting) const {

@@ -122,6 +122,10 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
     prior.mean[8] = lens->shift_x;
     prior.mean[9] = lens->shift_y;
     prior.mean[10] = lens->k1;
+    prior.measured.k2 = lens->k2;
+    prior.measured.k3 = lens->k3;
+    prior.measured.p1 = lens->p1;
+    prior.measured.p2 = lens->p2;
     // A scale error of the mount changes the tangent of half the view angle.
     const double view_angle_by_scale =
         DegreesFromRadians(std::sin(RadiansFromDegrees(lens->view_angle_deg)));

@@ -51,7 +51,7 @@ struct CameraPrior {
   CameraParameters mean = CameraParameters::Zero();
   CameraCovariance root = CameraCovariance::Zero();
   CameraParameters sigmas = CameraParameters::Zero();
-  ViewTag measured;  // what is not solved for (k2) stays as it says
+  ViewTag measured;  // what is not solved for (k2 k3 p1 p2) stays as it says
   // Of the picture that is aligned, in whose pixels the camera projects.
   int width_px = 0;
   int height_px = 0;
@@ -60,7 +60,7 @@ struct CameraPrior {
     return mean + root * whitened;
   }
   ParameterProjection ProjectionAt(const CameraParameters& whitened) const {
-    return {ParametersAt(whitened), measured.k2, width_px, height_px};
+    return {ParametersAt(whitened), TagDistortion(measured), width_px, height_px};
   }
   Camera CameraAt(const CameraParameters& whitened) const;
 };

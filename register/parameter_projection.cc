@@ -9,10 +9,11 @@
 namespace groundglass {
 
 ParameterProjection::ParameterProjection(const CameraParameters& parameters,
-                                         double k2,
+                                         const Distortion<double>& lens,
                                          int width_px,
                                          int height_px)
-    : width_px_(width_px), k1_(parameters[10]), k2_(k2) {
+    : width_px_(width_px), lens_(lens) {
+  lens_.k1 = parameters[10];
   position_in_world_ = WorldFromSite(parameters.head<3>());
   const double yaw = RadiansFromDegrees(parameters[3]);
   const double pitch = RadiansFromDegrees(parameters[4]);
@@ -59,19 +60,18 @@ std::optional<ParameterProjection::Result> ParameterProjection::Project(
   const double inverse_z = 1 / in_cam.z();
   const double x = in_cam.x() * inverse_z;
   const double y = in_cam.y() * inverse_z;
-  const double r2 = x * x + y * y;
-  const double s = 1 + k1_ * r2 + k2_ * r2 * r2;
-  const double s_by_r2 = k1_ + 2 * k2_ * r2;
-  if (s + 2 * r2 * s_by_r2 <= 0) return std::nullopt;  // the image has folded over
+  const Eigen::Vector2d normalised(x, y);
+  if (!IsBeforeFold(lens_, normalised)) return std::nullopt;
+  const Eigen::Vector2d distorted = Distort<double>(lens_, normalised);
 
   Result result;
-  result.image_px = {focal_x_px_ * s * x + center_x_px_, focal_y_px_ * s * y + center_y_px_};
+  result.image_px = {focal_x_px_ * distorted.x() + center_x_px_,
+                     focal_y_px_ * distorted.y() + center_y_px_};
   result.px_per_unit = focal_x_px_ * inverse_z;
 
   // d image / d (x, y), then d (x, y) / d point_in_cam.
-  Eigen::Matrix2d by_normalised;
-  by_normalised << focal_x_px_ * (s + 2 * x * x * s_by_r2), focal_x_px_ * 2 * x * y * s_by_r2,
-      focal_y_px_ * 2 * x * y * s_by_r2, focal_y_px_ * (s + 2 * y * y * s_by_r2);
+  const Eigen::Matrix2d by_normalised = Eigen::Vector2d(focal_x_px_, focal_y_px_).asDiagonal() *
+                                        DistortionDerivative<double>(lens_, normalised);
   Eigen::Matrix<double, 2, 3> normalised_by_cam;
   normalised_by_cam << inverse_z, 0, -x * inverse_z, 0, inverse_z, -y * inverse_z;
   const Eigen::Matrix<double, 2, 3> by_cam = by_normalised * normalised_by_cam;
@@ -84,10 +84,12 @@ std::optional<ParameterProjection::Result> ParameterProjection::Project(
   jacobian.col(3) = by_cam * (rotation_by_yaw_ * offset);
   jacobian.col(4) = by_cam * (rotation_by_pitch_ * offset);
   jacobian.col(5) = by_cam * (rotation_by_roll_ * offset);
-  jacobian.col(6) = Eigen::Vector2d(s * x, s * y * focal_y_by_focal_x_) * focal_x_by_view_angle_;
-  jacobian.col(7) = Eigen::Vector2d(0, s * y * focal_y_by_aspect_ + center_y_by_aspect_);
+  jacobian.col(6) =
+      Eigen::Vector2d(distorted.x(), distorted.y() * focal_y_by_focal_x_) * focal_x_by_view_angle_;
+  jacobian.col(7) = Eigen::Vector2d(0, distorted.y() * focal_y_by_aspect_ + center_y_by_aspect_);
   jacobian.col(8) = Eigen::Vector2d(width_px_, 0);
   jacobian.col(9) = Eigen::Vector2d(0, center_y_by_shift_);
+  const double r2 = normalised.squaredNorm();
   jacobian.col(10) = Eigen::Vector2d(focal_x_px_ * x * r2, focal_y_px_ * y * r2);
   return result;
 }

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/camera_model.h"
 #include "scene/registration.h"
 
 #include <Eigen/Dense>
@@ -12,11 +13,15 @@ namespace groundglass {
 
 // Projection as a function of a photograph's free numbers, with its derivatives:
 //   point_in_cam = R(yaw, pitch, roll) (point - position),  (x, y) = point_in_cam.xy / z,
-//   s = 1 + k1 r2 + k2 r2^2,  image = (f_x s x + c_x, f_y s y + c_y),
+//   (x', y') = Distort(x, y),  image = (f_x x' + c_x, f_y y' + c_y),
 // f, c from view angle, aspect and shift as docs/frames.md says. Units of CameraParameters.
 class ParameterProjection {
  public:
-  ParameterProjection(const CameraParameters& parameters, double k2, int width_px, int height_px);
+  // `lens` gives k2, k3, p1 and p2, which are not free.
+  ParameterProjection(const CameraParameters& parameters,
+                      const Distortion<double>& lens,
+                      int width_px,
+                      int height_px);
 
   struct Result {
     Eigen::Vector2d image_px;
@@ -25,7 +30,7 @@ class ParameterProjection {
     // Pixels that one model unit across the line of sight spans there.
     double px_per_unit;
   };
-  // Nothing for a point behind the camera.
+  // Nothing for a point behind the camera, or beyond the distortion's fold.
   std::optional<Result> Project(const Eigen::Vector3d& point_in_world) const;
 
  private:
@@ -44,8 +49,7 @@ class ParameterProjection {
   double center_y_by_aspect_;
   double center_y_by_shift_;
   double width_px_;
-  double k1_;
-  double k2_;
+  Distortion<double> lens_;
 };
 
 }  // namespace groundglass

@@ -22,7 +22,7 @@ struct PartedPrior {
 
   ParameterProjection ProjectionAt(const CameraParameters& own, const LensParameters& lens) const {
     return {whole.mean + own_root * own + lens_root * lens,
-            whole.measured.k2,
+            TagDistortion(whole.measured),
             whole.width_px,
             whole.height_px};
   }

@@ -27,7 +27,7 @@ void WriteRegistrationOutput(const Scene& scene,
         registration.verdict == Verdict::kRejected
             ? measured_text
             : FormatCorrectedView(measured_text, registration.corrected, deviations));
-    cameras.push_back({photograph.image_file.filename().string(), registration.CorrectedCamera()});
+    cameras.push_back({ImageName(scene, photograph), registration.CorrectedCamera()});
   }
   WriteColmapModel(out / "cameras", cameras);
   WriteFileAtomically(out / "registration.json",

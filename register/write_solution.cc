@@ -53,8 +53,7 @@ void WriteSolution(const JointSolution& solution,
                    Registration& registration) {
   const double to_photograph = static_cast<double>(registration.width_px) / prior.width_px;
   const ParameterProjection projection = prior.ProjectionAt(solution.whitened);
-  registration.corrected =
-      TagFromParameters(prior.ParametersAt(solution.whitened), registration.measured);
+  registration.corrected = TagFromParameters(prior.ParametersAt(solution.whitened), prior.measured);
   registration.covariance = prior.root * solution.covariance * prior.root.transpose();
   registration.sigmas = registration.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   registration.num_samples = solution.num_matched;

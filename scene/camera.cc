@@ -2,48 +2,31 @@
 // Part of Groundglass.
 #include "scene/camera.h"
 
-#include <cmath>
-
 namespace groundglass {
-namespace {
-
-// d/dr of r (1 + k1 r^2 + k2 r^4); where it is not positive the image folds over.
-double DistortedRadiusSlope(const Camera& camera, double r2) {
-  return 1 + 3 * camera.k1 * r2 + 5 * camera.k2 * r2 * r2;
-}
-
-// Newton's method for the undistorted radius; the polynomial is monotone where images exist.
-double UndistortRadius(const Camera& camera, double distorted_radius) {
-  double r = distorted_radius;
-  for (int iteration = 0; iteration < 30; ++iteration) {
-    const double r2 = r * r;
-    const double value = r * (1 + camera.k1 * r2 + camera.k2 * r2 * r2) - distorted_radius;
-    const double slope = DistortedRadiusSlope(camera, r2);
-    if (slope <= 0.05) {
-      // Past the fold there is no inverse: step back towards the centre.
-      r *= 0.8;
-      continue;
-    }
-    const double step = value / slope;
-    r -= step;
-    if (std::abs(step) < 1e-15 * (1 + r)) break;
-  }
-  return r;
-}
-
-}  // namespace
 
 std::optional<Eigen::Vector2d> ProjectFromCam(const Camera& camera,
                                               const Eigen::Vector3d& point_in_cam) {
   if (!(point_in_cam.z() > 0)) return std::nullopt;
-  const double x = point_in_cam.x() / point_in_cam.z();
-  const double y = point_in_cam.y() / point_in_cam.z();
-  const double r2 = x * x + y * y;
-  const bool distorted = camera.k1 != 0 || camera.k2 != 0;
-  if (distorted && DistortedRadiusSlope(camera, r2) <= 0) return std::nullopt;
-  const double s = 1 + camera.k1 * r2 + camera.k2 * r2 * r2;
-  return Eigen::Vector2d(camera.focal_x_px * s * x + camera.center_x_px,
-                         camera.focal_y_px * s * y + camera.center_y_px);
+  const Eigen::Vector2d normalised(point_in_cam.x() / point_in_cam.z(),
+                                   point_in_cam.y() / point_in_cam.z());
+  if (camera.IsDistorted() && !IsBeforeFold(camera.LensDistortion(), normalised))
+    return std::nullopt;
+  return ImageFromNormalised(camera, normalised);
+}
+
+Eigen::Vector2d ImageFromNormalised(const Camera& camera, const Eigen::Vector2d& normalised) {
+  const Eigen::Vector2d distorted =
+      camera.IsDistorted() ? Distort<double>(camera.LensDistortion(), normalised) : normalised;
+  return {camera.focal_x_px * distorted.x() + camera.center_x_px,
+          camera.focal_y_px * distorted.y() + camera.center_y_px};
+}
+
+Eigen::Matrix2d ImageFromNormalisedDerivative(const Camera& camera,
+                                              const Eigen::Vector2d& normalised) {
+  Eigen::Matrix2d derivative = DistortionDerivative<double>(camera.LensDistortion(), normalised);
+  derivative.row(0) *= camera.focal_x_px;
+  derivative.row(1) *= camera.focal_y_px;
+  return derivative;
 }
 
 std::optional<Eigen::Vector2d> Project(const Camera& camera,
@@ -54,12 +37,7 @@ std::optional<Eigen::Vector2d> Project(const Camera& camera,
 Eigen::Vector3d UnprojectToCam(const Camera& camera, const Eigen::Vector2d& image_px) {
   Eigen::Vector2d normalised((image_px.x() - camera.center_x_px) / camera.focal_x_px,
                              (image_px.y() - camera.center_y_px) / camera.focal_y_px);
-  if (camera.k1 != 0 || camera.k2 != 0) {
-    const double distorted_radius = normalised.norm();
-    if (distorted_radius > 0) {
-      normalised *= UndistortRadius(camera, distorted_radius) / distorted_radius;
-    }
-  }
+  if (camera.IsDistorted()) normalised = Undistort(camera.LensDistortion(), normalised);
   return {normalised.x(), normalised.y(), 1};
 }
 
@@ -84,6 +62,28 @@ Camera ResizedCamera(const Camera& camera, int width_px, int height_px) {
   resized.focal_y_px *= scale_y;
   resized.center_y_px *= scale_y;
   return resized;
+}
+
+Camera TurnedCamera(const Camera& camera, int quarter_turns) {
+  Camera turned = camera;
+  for (int i = 0; i < ((quarter_turns % 4) + 4) % 4; ++i) {
+    const Camera before = turned;
+    // What was right is down, what was down is left.
+    Eigen::Matrix3d turn;
+    turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+    turned.width_px = before.height_px;
+    turned.height_px = before.width_px;
+    turned.focal_x_px = before.focal_y_px;
+    turned.focal_y_px = before.focal_x_px;
+    turned.center_x_px = before.height_px - before.center_y_px;
+    turned.center_y_px = before.center_x_px;
+    // (p2, p1) is a direction in the image plane.
+    turned.p2 = -before.p1;
+    turned.p1 = before.p2;
+    turned.cam_from_world.rotation = turn * before.cam_from_world.rotation;
+    turned.cam_from_world.translation = turn * before.cam_from_world.translation;
+  }
+  return turned;
 }
 
 }  // namespace groundglass

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/camera_model.h"
 #include "scene/frames.h"
 
 #include <Eigen/Dense>
@@ -10,10 +11,10 @@
 
 namespace groundglass {
 
-// What projects: a pinhole with radial distortion on normalised coordinates, as COLMAP's and
-// OpenCV's OPENCV model with p1 = p2 = 0:
-//   (x, y) = point_in_cam.xy / z,  r2 = x^2 + y^2,  s = 1 + k1 r2 + k2 r2^2
-//   image  = (focal_x s x + center_x, focal_y s y + center_y)
+// What projects: a pinhole with a lens' distortion on normalised coordinates (camera_model.h), as
+// COLMAP's OPENCV model, or FULL_OPENCV with k4 = k5 = k6 = 0:
+//   (x', y') = Distort(point_in_cam.xy / z),  image = (focal_x x' + center_x, focal_y y' +
+//   center_y)
 struct Camera {
   int width_px = 0;
   int height_px = 0;
@@ -28,6 +29,9 @@ struct Camera {
   double p2 = 0;
   RigidTransform cam_from_world;
 
+  Distortion<double> LensDistortion() const { return {k1, k2, k3, p1, p2}; }
+  // False: straight lines have straight images.
+  bool IsDistorted() const { return !IsNone(LensDistortion()); }
   Eigen::Vector3d PositionInWorld() const {
     return -(cam_from_world.rotation.transpose() * cam_from_world.translation);
   }
@@ -36,10 +40,16 @@ struct Camera {
 };
 
 // The image point (pixels) of a point in `cam`; nothing behind the camera's plane, nor where the
-// distortion polynomial has turned back on itself.
+// distortion has folded the image over.
 std::optional<Eigen::Vector2d> ProjectFromCam(const Camera& camera,
                                               const Eigen::Vector3d& point_in_cam);
 std::optional<Eigen::Vector2d> Project(const Camera& camera, const Eigen::Vector3d& point_in_world);
+
+// The image point of normalised coordinates, wherever they are.
+Eigen::Vector2d ImageFromNormalised(const Camera& camera, const Eigen::Vector2d& normalised);
+// Its derivative, px for one unit along x and y.
+Eigen::Matrix2d ImageFromNormalisedDerivative(const Camera& camera,
+                                              const Eigen::Vector2d& normalised);
 
 // The direction in `cam`, with z = 1, of the ray that meets the image at `image_px`.
 Eigen::Vector3d UnprojectToCam(const Camera& camera, const Eigen::Vector2d& image_px);
@@ -51,5 +61,8 @@ bool IsInsideFrame(const Camera& camera, const Eigen::Vector2d& image_px);
 
 // The same camera for an image resampled to another size (x and y scale apart).
 Camera ResizedCamera(const Camera& camera, int width_px, int height_px);
+
+// The same camera for the image turned clockwise by quarter turns.
+Camera TurnedCamera(const Camera& camera, int quarter_turns);
 
 }  // namespace groundglass

@@ -3,10 +3,11 @@
 #include "scene/colmap_io.h"
 
 #include "scene/atomic_file.h"
+#include "scene/colmap_records.h"
 #include "scene/error.h"
 #include "scene/text.h"
-#include "scene/view_io.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -14,111 +15,7 @@
 namespace groundglass {
 namespace {
 
-// How COLMAP's model of each name fills our camera: indices into its parameters, -1 for none.
-struct ModelLayout {
-  size_t num_parameters;
-  int focal_x, focal_y, center_x, center_y, k1, k2, p1, p2;
-};
-const std::map<std::string, ModelLayout, std::less<>> kLayouts = {
-    {"SIMPLE_PINHOLE", {3, 0, 0, 1, 2, -1, -1, -1, -1}},
-    {"PINHOLE", {4, 0, 1, 2, 3, -1, -1, -1, -1}},
-    {"SIMPLE_RADIAL", {4, 0, 0, 1, 2, 3, -1, -1, -1}},
-    {"RADIAL", {5, 0, 0, 1, 2, 3, 4, -1, -1}},
-    {"OPENCV", {8, 0, 1, 2, 3, 4, 5, 6, 7}},
-};
-
-// One line's words, read one after the other.
-class FieldReader {
- public:
-  FieldReader(const std::filesystem::path& file, const TextLine& line) : file_(file), line_(line) {}
-
-  std::string_view ReadWord(const char* what) {
-    if (next_ == line_.tokens.size()) Fail(std::string("expected ") + what);
-    return line_.tokens[next_++].text;
-  }
-  double ReadNumber(const char* what) {
-    const std::string_view word = ReadWord(what);
-    const std::optional<double> value = ParseNumber(word);
-    if (!value || !std::isfinite(*value)) {
-      Fail(std::string(what) + ": " + Quote(word) + " is not a finite number");
-    }
-    return *value;
-  }
-  long long ReadInteger(const char* what) {
-    const std::string_view word = ReadWord(what);
-    const std::optional<long long> value = ParseInteger(word);
-    if (!value) Fail(std::string(what) + ": " + Quote(word) + " is not a whole number");
-    return *value;
-  }
-  // The rest of the line: names may hold blanks.
-  std::string ReadRest(const char* what) {
-    const std::string_view first = ReadWord(what);
-    const std::string_view last = line_.tokens.back().text;
-    next_ = line_.tokens.size();
-    return std::string(first.data(), static_cast<size_t>(last.data() + last.size() - first.data()));
-  }
-  size_t NumLeft() const { return line_.tokens.size() - next_; }
-  [[noreturn]] void Fail(const std::string& message) const {
-    throw Error(file_, line_.number, message);
-  }
-
- private:
-  std::filesystem::path file_;
-  const TextLine& line_;
-  size_t next_ = 0;
-};
-
-std::map<long long, Camera> ReadCameras(const std::filesystem::path& file) {
-  std::map<long long, Camera> cameras;
-  const std::string text = ReadTextFile(file);
-  for (const TextLine& line : SplitLines(text, '\0')) {
-    if (line.tokens.empty() || line.tokens.front().text.front() == '#') continue;
-    FieldReader fields(file, line);
-    const long long id = fields.ReadInteger("camera number");
-    const std::string_view model = fields.ReadWord("camera model");
-    const auto layout = kLayouts.find(model);
-    if (layout == kLayouts.end()) {
-      fields.Fail("camera model " + Quote(model) +
-                  " is not read; expected SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL or "
-                  "OPENCV (colmap image_undistorter makes PINHOLE of any)");
-    }
-    Camera camera;
-    const long long width = fields.ReadInteger("width");
-    const long long height = fields.ReadInteger("height");
-    constexpr long long kLongestSide = 1 << 17;
-    if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide) {
-      fields.Fail("an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                  " pixels cannot be");
-    }
-    camera.width_px = static_cast<int>(width);
-    camera.height_px = static_cast<int>(height);
-    if (fields.NumLeft() != layout->second.num_parameters) {
-      fields.Fail(std::string(model) + " has " + std::to_string(layout->second.num_parameters) +
-                  " parameters, not " + std::to_string(fields.NumLeft()));
-    }
-    std::vector<double> values;
-    while (fields.NumLeft() > 0) values.push_back(fields.ReadNumber("camera parameter"));
-    const auto value = [&](int index) {
-      return index < 0 ? 0.0 : values[static_cast<size_t>(index)];
-    };
-    camera.focal_x_px = value(layout->second.focal_x);
-    camera.focal_y_px = value(layout->second.focal_y);
-    camera.center_x_px = value(layout->second.center_x);
-    camera.center_y_px = value(layout->second.center_y);
-    camera.k1 = value(layout->second.k1);
-    camera.k2 = value(layout->second.k2);
-    if (!(camera.focal_x_px > 0 && camera.focal_y_px > 0)) {
-      fields.Fail("the focal length must be above 0");
-    }
-    if (value(layout->second.p1) != 0 || value(layout->second.p2) != 0) {
-      fields.Fail("tangential distortion (p1, p2) is not supported");
-    }
-    if (!cameras.emplace(id, camera).second) {
-      fields.Fail("camera " + std::to_string(id) + " is repeated");
-    }
-  }
-  return cameras;
-}
+namespace fs = std::filesystem;
 
 std::string FormatQuaternion(const Eigen::Matrix3d& rotation) {
   Eigen::Quaterniond q(rotation);
@@ -128,12 +25,77 @@ std::string FormatQuaternion(const Eigen::Matrix3d& rotation) {
          FormatNumber(q.z());
 }
 
+// A quaternion whose length is off by more than this is none, however few digits it was written
+// with.
+constexpr double kLengthTolerance = 0.01;
+
+double Length(const double* values, int count) {
+  return Eigen::Map<const Eigen::VectorXd>(values, count).norm();
+}
+
+Eigen::Quaterniond RotationOf(const ColmapImage& image) {
+  const double length = Length(image.pose.data(), 4);
+  if (!(length > 1e-6)) throw Error(image.place + ": the quaternion is zero");
+  if (std::abs(length - 1) > kLengthTolerance) {
+    const bool is_swapped = std::abs(Length(image.pose.data() + 3, 4) - 1) <= kLengthTolerance;
+    throw Error(image.place + ": the quaternion QW QX QY QZ has length " +
+                FormatNumber(std::round(1000 * length) / 1000) + ", not 1; columns swapped? " +
+                (is_swapped ? "TX TY TZ seem to stand before it. " : "") +
+                "COLMAP's order is IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME");
+  }
+  return Eigen::Quaterniond(image.pose[0], image.pose[1], image.pose[2], image.pose[3])
+      .normalized();
+}
+
+// The model of this very folder.
+std::optional<ColmapFiles> FindHere(const fs::path& folder) {
+  const auto exists = [&](const char* name) {
+    std::error_code error;
+    return fs::is_regular_file(folder / name, error);
+  };
+  const bool has_text = exists("images.txt");
+  const bool has_binary = exists("images.bin");
+  if (!has_text && !has_binary) return std::nullopt;
+  const std::string extension =
+      has_text && (exists("cameras.txt") || !has_binary) ? ".txt" : ".bin";
+  ColmapFiles files = {folder / ("cameras" + extension), folder / ("images" + extension), {}};
+  if (!exists(("cameras" + extension).c_str())) {
+    throw Error(folder, "has images" + extension + " but no cameras" + extension + " beside it");
+  }
+  if (has_text && has_binary) {
+    files.warnings.push_back(
+        Error(folder, "holds a COLMAP model as text and as binary; images" + extension + " is read")
+            .what());
+  }
+  return files;
+}
+
+// Of folders 0, 1, 2, ... which COLMAP's mapper makes, one for each part that hangs together.
+std::optional<ColmapFiles> FindNumbered(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::optional<long long> number = ParseInteger(entry->path().filename().string());
+    if (number && *number >= 0 && FindHere(entry->path())) found.push_back(entry->path());
+  }
+  if (found.empty()) return std::nullopt;
+  if (found.size() > 1) {
+    std::sort(found.begin(), found.end());
+    throw Error(folder,
+                "holds " + std::to_string(found.size()) +
+                    " COLMAP models, each in a frame of its own; name the one that is meant, as " +
+                    found.front().string());
+  }
+  return FindHere(found.front());
+}
+
 }  // namespace
 
-void WriteColmapModel(const std::filesystem::path& folder,
-                      const std::vector<NamedCamera>& cameras) {
+void WriteColmapModel(const fs::path& folder, const std::vector<NamedCamera>& cameras) {
   std::string cameras_text =
       "# CAMERA_ID MODEL WIDTH HEIGHT FX FY CX CY K1 K2 P1 P2; pixel centres at 0.5\n";
+  // FULL_OPENCV goes on with K3 K4 K5 K6.
   std::string images_text =
       "# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then a line of points (none); "
       "world: x east, y north, z up\n";
@@ -150,17 +112,20 @@ void WriteColmapModel(const std::filesystem::path& folder,
   for (size_t i = 0; i < cameras.size(); ++i) {
     const Camera& camera = cameras[i].camera;
     const std::string id = std::to_string(id_of_name.at(cameras[i].name));
-    cameras_text +=
-        id + " OPENCV " + std::to_string(camera.width_px) + " " + std::to_string(camera.height_px);
+    cameras_text += id + (camera.k3 == 0 ? " OPENCV " : " FULL_OPENCV ") +
+                    std::to_string(camera.width_px) + " " + std::to_string(camera.height_px);
     for (const double value : {camera.focal_x_px,
                                camera.focal_y_px,
                                camera.center_x_px,
                                camera.center_y_px,
                                camera.k1,
-                               camera.k2}) {
+                               camera.k2,
+                               camera.p1,
+                               camera.p2}) {
       cameras_text += " " + FormatNumber(value);
     }
-    cameras_text += " 0 0\n";
+    if (camera.k3 != 0) cameras_text += " " + FormatNumber(camera.k3) + " 0 0 0";
+    cameras_text += "\n";
     images_text += id + " " + FormatQuaternion(camera.cam_from_world.rotation);
     for (const double value : camera.cam_from_world.translation) {
       images_text += " " + FormatNumber(value);
@@ -172,51 +137,52 @@ void WriteColmapModel(const std::filesystem::path& folder,
   WriteFileAtomically(folder / "points3D.txt", "# no points\n");
 }
 
-std::vector<NamedCamera> ReadColmapModel(const std::filesystem::path& folder) {
-  const std::map<long long, Camera> cameras = ReadCameras(folder / "cameras.txt");
-  const std::filesystem::path file = folder / "images.txt";
-  const std::string text = ReadTextFile(file);
+std::optional<ColmapFiles> FindColmapModel(const fs::path& folder) {
+  for (const fs::path& candidate : {folder, folder / "sparse"}) {
+    if (auto files = FindHere(candidate)) return files;
+  }
+  for (const fs::path& candidate : {folder, folder / "sparse"}) {
+    if (auto files = FindNumbered(candidate)) return files;
+  }
+  return std::nullopt;
+}
+
+std::vector<NamedCamera> ReadColmapModel(const ColmapFiles& files) {
+  const ColmapRecords records = files.images_file.extension() == ".bin"
+                                    ? ReadColmapBinary(files.cameras_file, files.images_file)
+                                    : ReadColmapText(files.cameras_file, files.images_file);
   std::vector<NamedCamera> named_cameras;
   std::set<std::string> names;
-  // Every image has two lines, the second (its points) often empty.
-  bool is_points_line = false;
-  for (const TextLine& line : SplitLines(text, '\0')) {
-    if (is_points_line) {
-      if (line.tokens.size() % 3 != 0) {
-        throw Error(
-            file, line.number, "expected the image's points (X Y POINT3D_ID ...) or an empty line");
-      }
-      is_points_line = false;
-      continue;
+  for (const ColmapImage& image : records.images) {
+    const Eigen::Quaterniond rotation = RotationOf(image);
+    const auto camera = records.cameras.find(image.camera_id);
+    if (camera == records.cameras.end()) {
+      throw Error(image.place + ": camera " + std::to_string(image.camera_id) + " is not in " +
+                  files.cameras_file.filename().string());
     }
-    if (line.tokens.empty() || line.tokens.front().text.front() == '#') continue;
-    is_points_line = true;
-    FieldReader fields(file, line);
-    fields.ReadInteger("image number");
-    Eigen::Quaterniond rotation;
-    rotation.w() = fields.ReadNumber("QW");
-    rotation.x() = fields.ReadNumber("QX");
-    rotation.y() = fields.ReadNumber("QY");
-    rotation.z() = fields.ReadNumber("QZ");
-    Eigen::Vector3d translation;
-    translation.x() = fields.ReadNumber("TX");
-    translation.y() = fields.ReadNumber("TY");
-    translation.z() = fields.ReadNumber("TZ");
-    const long long camera_id = fields.ReadInteger("camera number");
-    const std::string name = fields.ReadRest("image name");
-    if (!(rotation.norm() > 1e-6)) fields.Fail("the quaternion is zero");
-    const auto camera = cameras.find(camera_id);
-    if (camera == cameras.end()) {
-      fields.Fail("camera " + std::to_string(camera_id) + " is not in cameras.txt");
-    }
-    if (!names.insert(name).second) fields.Fail("image " + Quote(name) + " is repeated");
+    if (!camera->second.fault.empty()) throw Error(camera->second.fault);
     NamedCamera& named = named_cameras.emplace_back();
-    named.name = name;
-    named.camera = camera->second;
-    named.camera.cam_from_world = {rotation.normalized().toRotationMatrix(), translation};
+    named.name = image.name;
+    std::replace(named.name.begin(), named.name.end(), '\\', '/');
+    if (!names.insert(named.name).second) {
+      throw Error(image.place + ": image " + Quote(image.name) + " is repeated");
+    }
+    named.camera = camera->second.camera;
+    named.camera.cam_from_world = {rotation.toRotationMatrix(),
+                                   {image.pose[4], image.pose[5], image.pose[6]}};
   }
-  if (named_cameras.empty()) throw Error(file, "no images in this model");
+  if (named_cameras.empty()) throw Error(files.images_file, "no images in this model");
   return named_cameras;
+}
+
+std::vector<NamedCamera> ReadColmapModel(const fs::path& folder) {
+  const std::optional<ColmapFiles> files = FindColmapModel(folder);
+  if (!files) {
+    throw Error(folder,
+                "no COLMAP model here; expected cameras.txt and images.txt, or cameras.bin and "
+                "images.bin, or a folder sparse/0 with them");
+  }
+  return ReadColmapModel(*files);
 }
 
 }  // namespace groundglass

@@ -6,6 +6,7 @@
 #include "scene/colmap_io.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
+#include "scene/image_paths.h"
 #include "scene/osu_io.h"
 #include "scene/scene_folder.h"
 #include "scene/text.h"
@@ -56,24 +57,33 @@ ConvertResult ConvertColmapToViews(const fs::path& input,
                                    const fs::path& output,
                                    double lookat_distance) {
   if (!(lookat_distance > 0)) throw Error("the look-at distance must be above 0");
-  const std::vector<NamedCamera> cameras = ReadColmapModel(input);
-  std::map<std::string, std::string> name_of_stem;
-  for (const NamedCamera& named : cameras) {
-    const std::string stem = fs::path(named.name).stem().string();
-    const auto [place, is_new] = name_of_stem.emplace(stem, named.name);
+  const std::optional<ColmapFiles> files = FindColmapModel(input);
+  if (!files) throw Error(input, "no COLMAP model here");
+  const std::vector<NamedCamera> cameras = ReadColmapModel(*files);
+  std::vector<std::string> images;
+  for (const NamedCamera& named : cameras) images.push_back(named.name);
+  const std::vector<std::string> names = NamePhotographs(images);
+  // All are made before the first is written, so that a fault leaves nothing half done.
+  std::map<std::string, size_t> image_of_name;
+  std::vector<std::string> texts;
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    const auto [place, is_new] = image_of_name.emplace(names[i], i);
     if (!is_new) {
       throw Error(input,
-                  "images " + Quote(place->second) + " and " + Quote(named.name) +
+                  "images " + Quote(images[place->second]) + " and " + Quote(images[i]) +
                       " would have the same view file");
     }
-    const ViewTag tag = TagFromCamera(named.camera, lookat_distance);
+    const ViewTag tag = TagFromCamera(cameras[i].camera, lookat_distance);
     if (const std::optional<TagFault> fault = FindTagFault(tag)) {
-      throw Error(input, "image " + Quote(named.name) + ": " + fault->message);
+      throw Error(input, "image " + Quote(images[i]) + ": " + fault->message);
     }
-    WriteFileAtomically(output / (stem + ".view"),
-                        FormatView(tag, "File: " + stem + ".view\nFrom a COLMAP model."));
+    texts.push_back(FormatView(
+        tag, "File: " + names[i] + ".view\nFrom a COLMAP model, image " + images[i] + "."));
   }
-  return {Count(cameras.size(), "view file") + " in " + output.string(), {}};
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    WriteFileAtomically(output / (names[i] + ".view"), texts[i]);
+  }
+  return {Count(cameras.size(), "view file") + " in " + output.string(), files->warnings};
 }
 
 ConvertResult ConvertViewsToColmap(const fs::path& input,
@@ -84,11 +94,11 @@ ConvertResult ConvertViewsToColmap(const fs::path& input,
   if (!fs::is_directory(images, error)) {
     throw Error(images, "no such folder of images, which tell the photographs' sizes");
   }
-  std::map<std::string, fs::path> image_of_stem;
-  for (const fs::directory_entry& entry : fs::directory_iterator(images)) {
-    if (entry.is_regular_file() && entry.path().filename().string().front() != '.') {
-      image_of_stem.emplace(entry.path().stem().string(), entry.path());
-    }
+  const std::vector<std::string> image_paths = ListFilesBelow(images);
+  const std::vector<std::string> image_names = NamePhotographs(image_paths);
+  std::map<std::string, std::string> path_of_name;
+  for (size_t i = 0; i < image_paths.size(); ++i) {
+    path_of_name.emplace(image_names[i], image_paths[i]);
   }
   std::vector<fs::path> views;
   for (const fs::directory_entry& entry : fs::directory_iterator(input)) {
@@ -100,14 +110,13 @@ ConvertResult ConvertViewsToColmap(const fs::path& input,
   std::vector<NamedCamera> cameras;
   for (const fs::path& view : views) {
     const ViewTag tag = ReadView(view);
-    const auto image = image_of_stem.find(view.stem().string());
-    if (image == image_of_stem.end()) {
+    const auto image = path_of_name.find(view.stem().string());
+    if (image == path_of_name.end()) {
       result.warnings.push_back(Error(view, "left out, since it has no image").what());
       continue;
     }
-    const ImageSize size = ReadImageSize(image->second);
-    cameras.push_back(
-        {image->second.filename().string(), CameraFromTag(tag, size.width, size.height)});
+    const ImageSize size = ReadImageSize(images / image->second);
+    cameras.push_back({image->second, CameraFromTag(tag, size.width, size.height)});
   }
   if (cameras.empty()) throw Error(input, "no view file here has an image");
   WriteColmapModel(output, cameras);

@@ -23,14 +23,15 @@ ConvertResult ConvertModel(const std::filesystem::path& input,
                            const std::filesystem::path& output,
                            const ModelOptions& options);
 
-// A COLMAP text model in `world` to a folder of view files, each named after its image.
+// A COLMAP model (text or binary) in `world` to a folder of view files, each named after its image
+// (image_paths.h); nothing is written unless all can be.
 // lookat_distance: how far ahead the look-at points are put, in the model's unit.
 ConvertResult ConvertColmapToViews(const std::filesystem::path& input,
                                    const std::filesystem::path& output,
                                    double lookat_distance);
 
 // A folder of view files to a COLMAP text model. The sizes and names of the images come from
-// `images`, matched by stem.
+// `images`, matched by name, in sub-folders too.
 ConvertResult ConvertViewsToColmap(const std::filesystem::path& input,
                                    const std::filesystem::path& output,
                                    const std::filesystem::path& images);

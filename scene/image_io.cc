@@ -228,10 +228,11 @@ Image8 ReadOpenSrgb8(OpenImage& image) {
 
 ImageSize ReadImageSize(const std::filesystem::path& file) {
   const OpenImage image(file);
-  const bool swaps = OrientationFromExif(image.ExifOrientation()).swaps_sides;
+  const int orientation = image.ExifOrientation();
   const int width = image.spec().width;
   const int height = image.spec().height;
-  return swaps ? ImageSize{height, width} : ImageSize{width, height};
+  return OrientationFromExif(orientation).swaps_sides ? ImageSize{height, width, orientation}
+                                                      : ImageSize{width, height, orientation};
 }
 
 ImageF ReadRadiance(const std::filesystem::path& file) {

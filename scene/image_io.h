@@ -13,6 +13,7 @@ namespace groundglass {
 struct ImageSize {
   int width = 0;
   int height = 0;
+  int orientation = 1;  // EXIF's, from 1 to 8; heeded in width and height
 };
 
 // All readers apply the file's orientation, and throw Error naming the file if it is missing,

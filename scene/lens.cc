@@ -18,7 +18,7 @@ struct LensKey {
   double Lens::*member;
   bool is_required;
 };
-constexpr std::array<LensKey, 12> kLensKeys = {{
+constexpr std::array<LensKey, 15> kLensKeys = {{
     {"v", &Lens::view_angle_deg, true},
     {"sigma_v", &Lens::sigma_view_angle_deg, false},
     {"a", &Lens::aspect, true},
@@ -31,6 +31,9 @@ constexpr std::array<LensKey, 12> kLensKeys = {{
     {"sigma_k1", &Lens::sigma_k1, false},
     {"k2", &Lens::k2, false},
     {"sigma_k2", &Lens::sigma_k2, false},
+    {"k3", &Lens::k3, false},
+    {"p1", &Lens::p1, false},
+    {"p2", &Lens::p2, false},
 }};
 
 const LensKey* FindKey(std::string_view name) {
@@ -55,10 +58,11 @@ Lens ReadLens(const std::filesystem::path& file) {
     const LensKey* key = FindKey(word.text);
     const std::string key_name = "key " + Quote(word.text);
     if (key == nullptr && word.text != "camera") {
-      throw Error(file,
-                  word.line,
-                  "unknown key " + Quote(word.text) +
-                      "; a lens has v a shift_x shift_y k1 k2, sigma_ of each, and camera");
+      throw Error(
+          file,
+          word.line,
+          "unknown key " + Quote(word.text) +
+              "; a lens has v a shift_x shift_y k1 k2, sigma_ of each, k3 p1 p2, and camera");
     }
     if (i + 1 == tokens.size()) throw Error(file, word.line, key_name + " has no value");
     if (!line_of_key.emplace(word.text, word.line).second) {
@@ -103,6 +107,8 @@ std::string FormatLens(const Lens& lens) {
     text += "camera " + lens.name + "\n";
   }
   for (const LensKey& key : kLensKeys) {
+    const bool is_rare = key.name == "k3" || key.name == "p1" || key.name == "p2";
+    if (is_rare && lens.*(key.member) == 0) continue;
     text += std::string(key.name) + " " + FormatNumber(lens.*(key.member)) + "\n";
   }
   return text;

@@ -10,7 +10,8 @@
 namespace groundglass {
 
 // What is true of all photographs of one camera: view angle (degrees, horizontal), aspect, shift
-// (fractions of the frame's width), k1 and k2, with one standard deviation each.
+// (fractions of the frame's width), k1 and k2, with one standard deviation each; and what a lens
+// calibrated elsewhere has besides (camera_model.h), held as it is.
 struct Lens {
   std::string name;  // matches the tag's `camera`; empty: serves every photograph
   double view_angle_deg = 0, sigma_view_angle_deg = 0;
@@ -19,6 +20,7 @@ struct Lens {
   double shift_y = 0, sigma_shift_y = 0;
   double k1 = 0, sigma_k1 = 0;
   double k2 = 0, sigma_k2 = 0;
+  double k3 = 0, p1 = 0, p2 = 0;
 };
 
 // Lens file (docs/lens-file.md): "key value" pairs as in a .view file, `%` comments.

@@ -25,7 +25,7 @@ using CameraCovariance = Eigen::Matrix<double, kNumCameraParameters, kNumCameraP
 
 CameraParameters ParametersFromTag(const ViewTag& tag);
 // The tag with these numbers; its look-at point moves along the new axis, staying at the measured
-// distance. k2, sigmas and name are kept from `measured`.
+// distance. k2, k3, p1, p2, sigmas and name are kept from `measured`.
 ViewTag TagFromParameters(const CameraParameters& parameters, const ViewTag& measured);
 // The standard deviations of the tag's numbers, the look-at point's pulled back through the axis.
 TagDeviations TagDeviationsFromCovariance(const CameraParameters& parameters,

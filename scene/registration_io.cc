@@ -29,9 +29,13 @@ constexpr SigmaKey kSigmaKeys[] = {
     {"sigma_k1", &TagSigmas::k1},
 };
 
+// Few cameras have k3, p1 and p2: left out where 0.
+bool IsRare(int index) { return static_cast<TagKey>(index) >= TagKey::kK3; }
+
 Json JsonFromTag(const ViewTag& tag) {
   Json json;
   for (int index = 0; index < kNumTagKeys; ++index) {
+    if (IsRare(index) && GetTagValue(tag, static_cast<TagKey>(index)) == 0) continue;
     json[std::string(kTagKeyNames[index])] = GetTagValue(tag, static_cast<TagKey>(index));
   }
   for (const SigmaKey& key : kSigmaKeys) {
@@ -44,8 +48,9 @@ Json JsonFromTag(const ViewTag& tag) {
 ViewTag TagFromJson(const Json& json) {
   ViewTag tag;
   for (int index = 0; index < kNumTagKeys; ++index) {
-    SetTagValue(
-        tag, static_cast<TagKey>(index), json.at(std::string(kTagKeyNames[index])).get<double>());
+    const std::string key(kTagKeyNames[index]);
+    if (IsRare(index) && !json.contains(key)) continue;
+    SetTagValue(tag, static_cast<TagKey>(index), json.at(key).get<double>());
   }
   for (const SigmaKey& key : kSigmaKeys) {
     if (json.contains(key.name)) tag.sigmas.*(key.member) = json.at(key.name).get<double>();

@@ -4,6 +4,8 @@
 
 #include "scene/error.h"
 #include "scene/face_number.h"
+#include "scene/given_cameras.h"
+#include "scene/image_paths.h"
 #include "scene/tags_csv.h"
 #include "scene/text.h"
 #include "scene/view_io.h"
@@ -59,6 +61,21 @@ struct FoundTag {
   ViewTag tag;
   fs::path view_file;
 };
+
+constexpr const char* kCamerasExpected =
+    "no cameras here; expected .view files named after the photographs, or a COLMAP model "
+    "(cameras.txt and images.txt, or cameras.bin and images.bin; in sparse/0 too)";
+
+// Where the .view files of a folder given in place of the scene's own lie: in it, or in its views/
+// if it is an output folder.
+fs::path FindViews(const fs::path& given) {
+  for (const fs::path& folder : {given, given / "views"}) {
+    for (const fs::path& file : ListFiles(folder)) {
+      if (file.extension() == ".view") return folder;
+    }
+  }
+  return {};
+}
 
 // Gathers a scene and its faults, part by part, each as far as it can be read.
 class SceneReader {
@@ -128,16 +145,21 @@ class SceneReader {
     }
   }
 
+  // By the photographs' names; files in sub-folders may have the same stem (image_paths.h).
   FilesByStem ListImages(const char* subfolder) {
+    const fs::path folder = folder_ / subfolder;
+    std::vector<std::string> paths = ListFilesBelow(folder);
+    std::erase_if(paths, [&](const std::string& path) {
+      if (HasExtension(path, kImageExtensions)) return false;
+      Warn(folder / path, std::string("not an image that is read here; expected ") + kImageNames);
+      return true;
+    });
+    const std::vector<std::string> names = NamePhotographs(paths);
     FilesByStem images;
-    for (const fs::path& file : ListFiles(folder_ / subfolder)) {
-      if (!HasExtension(file, kImageExtensions)) {
-        Warn(file, std::string("not an image that is read here; expected ") + kImageNames);
-        continue;
-      }
-      const auto [place, is_new] = images.emplace(file.stem().string(), file);
+    for (size_t i = 0; i < paths.size(); ++i) {
+      const auto [place, is_new] = images.emplace(names[i], folder / paths[i]);
       if (!is_new) {
-        Fault(Error(file,
+        Fault(Error(folder / paths[i],
                     "two images have the stem " + Quote(place->first) + "; the other is " +
                         place->second.filename().string()));
       }
@@ -146,10 +168,22 @@ class SceneReader {
   }
 
   void ReadTags(const FilesByStem& images) {
-    const fs::path views = folder_ / "views";
+    if (options_.views) {
+      try {
+        if (const std::optional<ColmapFiles> files = FindColmapModel(*options_.views)) {
+          ReadGivenCameras(*files, images);
+          return;
+        }
+      } catch (const Error& read_error) {
+        Fault(read_error);
+        return;
+      }
+    }
+    const fs::path views = options_.views ? FindViews(*options_.views) : folder_ / "views";
+    if (options_.views) tags_place_ = "a .view file in " + options_.views->string();
     const fs::path table = folder_ / "tags.csv";
     std::error_code error;
-    const bool has_table = fs::is_regular_file(table, error);
+    const bool has_table = !options_.views && fs::is_regular_file(table, error);
     if (fs::is_directory(views, error)) {
       if (has_table) Warn(table, "not read, since there is a folder views/");
       for (const fs::path& file : ListFiles(views)) {
@@ -184,8 +218,49 @@ class SceneReader {
       } catch (const Error& read_error) {
         Fault(read_error);
       }
+    } else if (options_.views) {
+      Fault(Error(*options_.views, kCamerasExpected));
     } else {
       Fault(Error(folder_, "no tags; expected a folder views/ with .view files, or tags.csv"));
+    }
+  }
+
+  // The tags of a COLMAP model's cameras.
+  void ReadGivenCameras(const ColmapFiles& files, const FilesByStem& images) {
+    cameras_file_ = files.images_file;
+    std::vector<std::string> names;
+    std::vector<std::string> paths;
+    for (const auto& [name, file] : images) {
+      names.push_back(name);
+      paths.push_back(file.lexically_relative(folder_ / "images").generic_string());
+      known_names_[name] = files.images_file;
+    }
+    const GivenCameras given = MatchColmapModel(files, paths);
+    result_.scene.camera_files = given.files;
+    std::vector<std::string>& warnings = result_.scene.warnings;
+    warnings.insert(warnings.end(), given.warnings.begin(), given.warnings.end());
+    result_.faults.insert(result_.faults.end(), given.faults.begin(), given.faults.end());
+    std::map<std::string, std::vector<std::string>> names_of_change;
+    for (const auto& [index, camera] : given.camera_of_image) {
+      const fs::path& image_file = images.at(names[index]);
+      try {
+        const FittedCamera fitted = FitCamera(camera.camera, ReadImageSize(image_file), image_file);
+        tags_[names[index]] = {TagForModel(fitted.camera, result_.scene.model), {}};
+        if (!fitted.change.empty()) names_of_change[fitted.change].push_back(names[index]);
+      } catch (const Error& error) {
+        Fault(error);
+      }
+    }
+    for (const auto& [change, changed] : names_of_change) {
+      std::string message = changed.size() == 1 ? "camera of " : "cameras of ";
+      for (size_t i = 0; i < std::min<size_t>(3, changed.size()); ++i) {
+        message += (i == 0 ? "" : ", ") + changed[i];
+      }
+      if (changed.size() > 3) message += " and " + std::to_string(changed.size() - 3) + " more";
+      Warn(files.images_file, message + " " + change);
+    }
+    if (given.camera_of_image.empty()) {
+      Fault(Error(files.images_file, "no photograph in images/ has the name of any of its images"));
     }
   }
 
@@ -225,8 +300,9 @@ class SceneReader {
   }
 
   void LookForOddities(const Photograph& photograph) {
-    const fs::path& place =
-        photograph.view_file.empty() ? folder_ / "tags.csv" : photograph.view_file;
+    const fs::path place = !photograph.view_file.empty() ? photograph.view_file
+                           : !cameras_file_.empty()      ? cameras_file_
+                                                         : folder_ / "tags.csv";
     const double image_aspect = static_cast<double>(photograph.size.width) / photograph.size.height;
     const double ratio = photograph.tag.aspect / image_aspect;
     // NTSC frames have pixels 1.1 from square; beyond 1.3 somebody has turned something.
@@ -244,16 +320,24 @@ class SceneReader {
       return (camera.cam_from_world * point).z() <= 0;
     });
     if (!points.empty() && is_behind) {
-      Warn(place, "the whole model lies behind this camera; y runs south in view files");
+      Warn(place,
+           cameras_file_.empty()
+               ? "the whole model lies behind this camera; y runs south in view files"
+               : "the whole model lies behind the camera of " + photograph.name);
     }
   }
 
   void AddMasks(const char* subfolder, std::optional<fs::path> Photograph::*member) {
     for (const auto& [name, file] : ListImages(subfolder)) {
+      const std::string place =
+          WithoutExtension(file.lexically_relative(folder_ / subfolder).generic_string());
       const auto photograph =
           std::find_if(result_.scene.photographs.begin(),
                        result_.scene.photographs.end(),
-                       [&](const Photograph& candidate) { return candidate.name == name; });
+                       [&](const Photograph& candidate) {
+                         return candidate.name == name ||
+                                WithoutExtension(ImageName(result_.scene, candidate)) == place;
+                       });
       if (photograph == result_.scene.photographs.end()) {
         Warn(file, "mask without a photograph; expected images/" + name + " with " + kImageNames);
         continue;
@@ -308,6 +392,7 @@ class SceneReader {
   std::map<std::string, FoundTag, NaturalOrder> tags_;
   FilesByStem known_names_;  // every photograph that has a tag, readable or not
   std::string tags_place_;   // where a tag is expected, if not in views/
+  fs::path cameras_file_;    // the COLMAP model that gave the tags, if one did
 };
 
 }  // namespace
@@ -320,6 +405,10 @@ Scene ReadScene(const fs::path& folder, const SceneOptions& options) {
 
 SceneCheck CheckScene(const fs::path& folder, const SceneOptions& options) {
   return SceneReader(folder, options).Read(true);
+}
+
+std::string ImageName(const Scene& scene, const Photograph& photograph) {
+  return photograph.image_file.lexically_relative(scene.folder / "images").generic_string();
 }
 
 bool NaturalLess(const std::string& a, const std::string& b) {

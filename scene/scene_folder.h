@@ -16,11 +16,11 @@ namespace groundglass {
 
 // One photograph with its tag, as found in a scene folder.
 struct Photograph {
-  std::string name;  // the stem: "s5"
+  std::string name;  // the stem: "s5" (image_paths.h)
   std::filesystem::path image_file;
   ImageSize size;  // px, orientation applied
   ViewTag tag;
-  std::filesystem::path view_file;                  // empty if the tag came from tags.csv
+  std::filesystem::path view_file;                  // empty if the tag came from elsewhere
   std::optional<std::filesystem::path> mask_file;   // white = ignore
   std::optional<std::filesystem::path> faces_file;  // hand-painted face mask
 };
@@ -32,12 +32,18 @@ struct Scene {
   std::filesystem::path model_file;
   PolygonModel model;
   std::vector<Photograph> photographs;
+  // The files of the COLMAP model that gave the tags, if one did.
+  std::vector<std::filesystem::path> camera_files;
   std::vector<std::string> warnings;  // a photograph without a tag, a tag without a photograph, ...
 };
 
 struct SceneOptions {
   std::optional<std::filesystem::path> model_file;  // in place of the one in the folder
   ModelOptions model;
+  // Cameras in place of the scene's tags: a COLMAP model (colmap_io.h) or a folder of .view files.
+  // Its own tags are not looked at. A camera becomes the tag that describes it, its look-at point
+  // as far away as the model's middle.
+  std::optional<std::filesystem::path> views;
 };
 
 // Throws Error with the first fault.
@@ -50,6 +56,9 @@ struct SceneCheck {
   std::vector<std::string> faults;
 };
 SceneCheck CheckScene(const std::filesystem::path& folder, const SceneOptions& options = {});
+
+// A photograph's path below images/, as COLMAP names it: "north/0001.jpg".
+std::string ImageName(const Scene& scene, const Photograph& photograph);
 
 // "s2" < "s10": runs of digits compare as numbers.
 bool NaturalLess(const std::string& a, const std::string& b);

@@ -94,7 +94,8 @@ ViewReading ReadPairs(const std::string& text, const std::filesystem::path& name
     if (!IsKey(key.text)) {
       fail(key.line,
            "unknown key " + Quote(key.text) +
-               "; the keys are x y z i j k a v roll shift_x shift_y k1 k2 sigma_... camera");
+               "; the keys are x y z i j k a v roll shift_x shift_y k1 k2 k3 p1 p2 sigma_... "
+               "camera");
       if (has_value) ++i;
       continue;
     }

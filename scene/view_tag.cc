@@ -8,6 +8,12 @@
 #include <cmath>
 
 namespace groundglass {
+namespace {
+
+// Closer than this to the vertical (radians) yaw has no meaning: closer than any notebook.
+constexpr double kSteepest = 1e-6;
+
+}  // namespace
 
 double GetTagValue(const ViewTag& tag, TagKey key) {
   switch (key) {
@@ -37,6 +43,12 @@ double GetTagValue(const ViewTag& tag, TagKey key) {
       return tag.k1;
     case TagKey::kK2:
       return tag.k2;
+    case TagKey::kK3:
+      return tag.k3;
+    case TagKey::kP1:
+      return tag.p1;
+    case TagKey::kP2:
+      return tag.p2;
   }
   return 0;
 }
@@ -82,6 +94,15 @@ void SetTagValue(ViewTag& tag, TagKey key, double value) {
     case TagKey::kK2:
       tag.k2 = value;
       return;
+    case TagKey::kK3:
+      tag.k3 = value;
+      return;
+    case TagKey::kP1:
+      tag.p1 = value;
+      return;
+    case TagKey::kP2:
+      tag.p2 = value;
+      return;
   }
 }
 
@@ -98,6 +119,9 @@ Camera CameraFromTag(const ViewTag& tag, int width_px, int height_px) {
   camera.center_y_px = height / 2 + tag.shift_y * camera.focal_y_px / camera.focal_x_px * width;
   camera.k1 = tag.k1;
   camera.k2 = tag.k2;
+  camera.k3 = tag.k3;
+  camera.p1 = tag.p1;
+  camera.p2 = tag.p2;
 
   const Eigen::Vector3d position = WorldFromSite(tag.position_in_site);
   const Eigen::Vector3d forward = (WorldFromSite(tag.lookat_in_site) - position).normalized();
@@ -116,7 +140,13 @@ Camera CameraFromTag(const ViewTag& tag, int width_px, int height_px) {
 ViewTag TagFromCamera(const Camera& camera, double lookat_distance) {
   ViewTag tag;
   const Eigen::Vector3d position = camera.PositionInWorld();
-  const Eigen::Vector3d forward = camera.ForwardInWorld();
+  Eigen::Vector3d forward = camera.ForwardInWorld();
+  if (forward.head<2>().norm() < 1.5 * kSteepest) {
+    // Towards where the picture's top points, or away from it in a view up: down stays level.
+    const Eigen::Vector3d up = -camera.cam_from_world.rotation.row(1).transpose();
+    const Eigen::Vector3d level(up.x(), up.y(), 0);
+    forward = (forward + 2 * kSteepest * (forward.z() < 0 ? level : -level)).normalized();
+  }
   tag.position_in_site = SiteFromWorld(position);
   tag.lookat_in_site = SiteFromWorld(position + lookat_distance * forward);
   tag.view_angle_deg = DegreesFromRadians(2 * std::atan(camera.width_px / (2 * camera.focal_x_px)));
@@ -130,6 +160,9 @@ ViewTag TagFromCamera(const Camera& camera, double lookat_distance) {
                 (camera.focal_y_px * camera.width_px);
   tag.k1 = camera.k1;
   tag.k2 = camera.k2;
+  tag.k3 = camera.k3;
+  tag.p1 = camera.p1;
+  tag.p2 = camera.p2;
   return tag;
 }
 
@@ -148,8 +181,7 @@ std::optional<TagFault> FindTagFault(const ViewTag& tag) {
   if (!(distance > 0)) {
     return TagFault{"i", "look-at point is the camera's own position, so it gives no direction"};
   }
-  // 1e-6 rad from the vertical: closer than any notebook, and yaw has no meaning there.
-  if (axis.head<2>().norm() < 1e-6 * distance) {
+  if (axis.head<2>().norm() < kSteepest * distance) {
     return TagFault{"k", "view is straight up or down, where yaw has no meaning"};
   }
   return std::nullopt;

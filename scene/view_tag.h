@@ -37,8 +37,11 @@ struct ViewTag {
   double roll_deg = 0;         // positive: camera turned clockwise as its operator sees it
   double shift_x = 0;          // principal point from the frame's centre, right positive,
   double shift_y = 0;          //   down positive; both as a fraction of the frame's WIDTH
-  double k1 = 0;               // radial distortion on normalised coordinates
+  double k1 = 0;               // distortion on normalised coordinates (camera_model.h)
   double k2 = 0;
+  double k3 = 0;
+  double p1 = 0;
+  double p2 = 0;
   TagSigmas sigmas;
   std::string camera;  // photographs with the same name share a lens; may be empty
 
@@ -46,22 +49,58 @@ struct ViewTag {
 };
 
 // The tag's numbers, in the order of the file format.
-enum class TagKey { kX, kY, kZ, kI, kJ, kK, kA, kV, kRoll, kShiftX, kShiftY, kK1, kK2 };
-constexpr int kNumTagKeys = 13;
-constexpr std::array<std::string_view, kNumTagKeys> kTagKeyNames = {
-    "x", "y", "z", "i", "j", "k", "a", "v", "roll", "shift_x", "shift_y", "k1", "k2"};
+enum class TagKey {
+  kX,
+  kY,
+  kZ,
+  kI,
+  kJ,
+  kK,
+  kA,
+  kV,
+  kRoll,
+  kShiftX,
+  kShiftY,
+  kK1,
+  kK2,
+  kK3,
+  kP1,
+  kP2
+};
+constexpr int kNumTagKeys = 16;
+constexpr std::array<std::string_view, kNumTagKeys> kTagKeyNames = {"x",
+                                                                    "y",
+                                                                    "z",
+                                                                    "i",
+                                                                    "j",
+                                                                    "k",
+                                                                    "a",
+                                                                    "v",
+                                                                    "roll",
+                                                                    "shift_x",
+                                                                    "shift_y",
+                                                                    "k1",
+                                                                    "k2",
+                                                                    "k3",
+                                                                    "p1",
+                                                                    "p2"};
 double GetTagValue(const ViewTag& tag, TagKey key);
 void SetTagValue(ViewTag& tag, TagKey key, double value);
 
 // A standard deviation for each of the tag's numbers, indexed by TagKey; 0 where unknown.
 using TagDeviations = std::array<double, kNumTagKeys>;
 
+inline Distortion<double> TagDistortion(const ViewTag& tag) {
+  return {tag.k1, tag.k2, tag.k3, tag.p1, tag.p2};
+}
+
 // The camera that a tag describes, for an image of this size (square pixels or not; formats page).
 // The tag must be valid (FindTagFault).
 Camera CameraFromTag(const ViewTag& tag, int width_px, int height_px);
 
 // The tag that describes a camera, its look-at point on the optical axis at this distance.
-// CameraFromTag(TagFromCamera(c, d), w, h) is c up to rounding. Sigmas and name are left empty.
+// CameraFromTag(TagFromCamera(c, d), w, h) is c up to rounding; a view straight up or down, which
+// no tag can tell, is tilted by 2e-6 rad. Sigmas and name are left empty.
 ViewTag TagFromCamera(const Camera& camera, double lookat_distance);
 
 // Why a tag's numbers make no camera, naming the key at fault; empty if they do.

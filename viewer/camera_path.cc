@@ -16,8 +16,8 @@ namespace {
 // position is given by bearing, distance and height from the model's upright axis, and the rotation
 // relative to the bearing: then a steady pose is a camera that circles the model and faces it.
 struct Pose {
-  // Position (world, or bearing, distance, height), focal lengths, principal point, k1, k2.
-  Eigen::Matrix<double, 9, 1> numbers = Eigen::Matrix<double, 9, 1>::Zero();
+  // Position (world, or bearing, distance, height), focal lengths, principal point, k1 k2 k3 p1 p2.
+  Eigen::Matrix<double, 12, 1> numbers = Eigen::Matrix<double, 12, 1>::Zero();
   Eigen::Quaterniond frame_from_cam = Eigen::Quaterniond::Identity();
 };
 
@@ -42,7 +42,7 @@ Pose PoseOf(const Camera& camera, const PoseFrame& frame) {
     pose.frame_from_cam = TurnByBearing(-bearing) * pose.frame_from_cam;
   }
   pose.numbers << position, camera.focal_x_px, camera.focal_y_px, camera.center_x_px,
-      camera.center_y_px, camera.k1, camera.k2;
+      camera.center_y_px, camera.k1, camera.k2, camera.k3, camera.p1, camera.p2;
   return pose;
 }
 
@@ -63,6 +63,9 @@ Camera CameraOf(const Pose& pose, const PoseFrame& frame, const Camera& like) {
   camera.center_y_px = pose.numbers[6];
   camera.k1 = pose.numbers[7];
   camera.k2 = pose.numbers[8];
+  camera.k3 = pose.numbers[9];
+  camera.p1 = pose.numbers[10];
+  camera.p2 = pose.numbers[11];
   camera.cam_from_world.rotation = world_from_cam.toRotationMatrix().transpose();
   camera.cam_from_world.translation = -(camera.cam_from_world.rotation * position);
   return camera;

@@ -21,7 +21,7 @@ std::vector<Eigen::Vector2d> ProjectSpan(const Camera& camera,
   const auto end_px = Project(camera, end_in_world);
   if (!start_px || !end_px) return {};
   constexpr double kPieceLengthPx = 8;
-  const bool bent = camera.k1 != 0 || camera.k2 != 0;
+  const bool bent = camera.IsDistorted();
   const int num_pieces =
       bent ? std::clamp(static_cast<int>((*end_px - *start_px).norm() / kPieceLengthPx), 1, 1000)
            : 1;

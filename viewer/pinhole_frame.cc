@@ -19,14 +19,20 @@ Eigen::Vector2d UndistortedPoint(const Camera& camera, const Eigen::Vector2d& im
   return radius > kMaxTangent ? Eigen::Vector2d(point * (kMaxTangent / radius)) : point;
 }
 
+// The largest eigenvalue of a symmetric matrix.
+double LargestStretch(const Eigen::Matrix2d& derivative) {
+  return derivative.trace() / 2 +
+         std::hypot((derivative(0, 0) - derivative(1, 1)) / 2, derivative(0, 1));
+}
+
 }  // namespace
 
 PinholeFrame MakePinholeFrame(const Camera& camera, double scale, int max_size_px) {
   PinholeFrame frame;
   frame.pinhole = camera;
-  frame.pinhole.k1 = 0;
-  frame.pinhole.k2 = 0;
-  frame.is_bent = camera.k1 != 0 || camera.k2 != 0;
+  frame.pinhole.k1 = frame.pinhole.k2 = frame.pinhole.k3 = 0;
+  frame.pinhole.p1 = frame.pinhole.p2 = 0;
+  frame.is_bent = camera.IsDistorted();
   if (!frame.is_bent) {
     frame.pinhole = ResizedCamera(frame.pinhole,
                                   static_cast<int>(std::lround(scale * camera.width_px)),
@@ -50,9 +56,10 @@ PinholeFrame MakePinholeFrame(const Camera& camera, double scale, int max_size_p
   double magnification = 1;
   for (const Eigen::Vector2d& point : undistorted) {
     bounds.extend(point);
-    const double r2 = point.squaredNorm();
-    magnification =
-        std::max(magnification, std::min(3.0, 1 + 3 * camera.k1 * r2 + 5 * camera.k2 * r2 * r2));
+    magnification = std::max(
+        magnification,
+        std::min(3.0,
+                 LargestStretch(DistortionDerivative<double>(camera.LensDistortion(), point))));
   }
   // Two pixels of margin on each side for the interpolation between pixels.
   const Eigen::Vector2d focal_px(camera.focal_x_px, camera.focal_y_px);

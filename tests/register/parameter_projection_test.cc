@@ -22,13 +22,16 @@ ViewTag OddTag() {
   tag.shift_y = -0.013;
   tag.k1 = -0.03;
   tag.k2 = 0.01;
+  tag.k3 = -0.004;
+  tag.p1 = 0.002;
+  tag.p2 = -0.003;
   return tag;
 }
 
 TEST(ParameterProjection, AgreesWithTheCameraThatTheTagDescribes) {
   const ViewTag tag = OddTag();
   const Camera camera = CameraFromTag(tag, 640, 480);
-  const ParameterProjection projection(ParametersFromTag(tag), tag.k2, 640, 480);
+  const ParameterProjection projection(ParametersFromTag(tag), TagDistortion(tag), 640, 480);
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> spread(-40, 40);
   for (int i = 0; i < 100; ++i) {
@@ -46,7 +49,7 @@ TEST(ParameterProjection, DerivativesMatchFiniteDifferences) {
   const ViewTag tag = OddTag();
   const CameraParameters parameters = ParametersFromTag(tag);
   const Eigen::Vector3d point(96, 12, 48);
-  const auto result = ParameterProjection(parameters, tag.k2, 640, 480).Project(point);
+  const auto result = ParameterProjection(parameters, TagDistortion(tag), 640, 480).Project(point);
   ASSERT_TRUE(result);
   for (int k = 0; k < kNumCameraParameters; ++k) {
     const double step = 1e-5;
@@ -55,8 +58,8 @@ TEST(ParameterProjection, DerivativesMatchFiniteDifferences) {
     ahead[k] += step;
     behind[k] -= step;
     const Eigen::Vector2d difference =
-        (ParameterProjection(ahead, tag.k2, 640, 480).Project(point)->image_px -
-         ParameterProjection(behind, tag.k2, 640, 480).Project(point)->image_px) /
+        (ParameterProjection(ahead, TagDistortion(tag), 640, 480).Project(point)->image_px -
+         ParameterProjection(behind, TagDistortion(tag), 640, 480).Project(point)->image_px) /
         (2 * step);
     EXPECT_LT((difference - result->jacobian.col(k)).norm(), 1e-5 * (1 + difference.norm()))
         << kCameraParameterNames[k];
@@ -65,7 +68,7 @@ TEST(ParameterProjection, DerivativesMatchFiniteDifferences) {
 
 TEST(ParameterProjection, APointBehindTheCameraHasNoImage) {
   const ViewTag tag = OddTag();
-  const ParameterProjection projection(ParametersFromTag(tag), 0, 640, 480);
+  const ParameterProjection projection(ParametersFromTag(tag), {}, 640, 480);
   const Eigen::Vector3d behind =
       WorldFromSite(tag.position_in_site - (tag.lookat_in_site - tag.position_in_site));
   EXPECT_FALSE(projection.Project(behind));

@@ -127,8 +127,6 @@ TEST(ColmapModel, BadOnesGiveOneLine) {
               HasSubstr("cameras.txt:1: camera model 'FISHEYE' is not read"));
   EXPECT_THAT(message("1 PINHOLE 640 480 1 2 3", good_image),
               HasSubstr("cameras.txt:1: PINHOLE has 4 parameters, not 3"));
-  EXPECT_THAT(message("1 OPENCV 640 480 1 2 3 4 0 0 0.1 0", good_image),
-              HasSubstr("cameras.txt:1: tangential distortion"));
   EXPECT_THAT(message("1 PINHOLE 640 99999999999 1 2 3 4", good_image),
               HasSubstr("cameras.txt:1: an image of 640 x 99999999999 pixels cannot be"));
   EXPECT_THAT(message(good_camera + good_camera, good_image),

@@ -63,6 +63,7 @@ TEST(LensFile, RoundTripsToTheLastBit) {
   lens.k1 = -0.018;
   lens.sigma_k1 = 1e-4;
   lens.k2 = 3e-3;
+  lens.p2 = -4e-4;
   const Lens again = ReadLens(folder.Write("f.lens", FormatLens(lens)));
   EXPECT_EQ(again.name, "nikon");
   EXPECT_EQ(again.view_angle_deg, lens.view_angle_deg);
@@ -70,6 +71,8 @@ TEST(LensFile, RoundTripsToTheLastBit) {
   EXPECT_EQ(again.shift_y, lens.shift_y);
   EXPECT_EQ(again.sigma_k1, 1e-4);
   EXPECT_EQ(again.k2, 3e-3);
+  EXPECT_EQ(again.k3, 0);
+  EXPECT_EQ(again.p2, -4e-4);
   EXPECT_EQ(FormatLens(again), FormatLens(lens));
 }
 

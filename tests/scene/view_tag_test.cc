@@ -105,6 +105,9 @@ TEST(TagFromCamera, IsTheInverseOfCameraFromTag) {
     tag.shift_y = 0.02 * unit(random);
     tag.k1 = 0.05 * unit(random);
     tag.k2 = 0.01 * unit(random);
+    tag.k3 = 0.01 * unit(random);
+    tag.p1 = 0.001 * unit(random);
+    tag.p2 = 0.001 * unit(random);
     const double distance = (tag.lookat_in_site - tag.position_in_site).norm();
     const ViewTag again = TagFromCamera(CameraFromTag(tag, 640, 480), distance);
     for (int key = 0; key < kNumTagKeys; ++key) {
@@ -112,6 +115,28 @@ TEST(TagFromCamera, IsTheInverseOfCameraFromTag) {
                   GetTagValue(again, static_cast<TagKey>(key)),
                   1e-9)
           << kTagKeyNames[key] << " in trial " << trial;
+    }
+  }
+}
+
+TEST(TagFromCamera, AViewStraightDownOrUpBecomesATagThatShowsTheSame) {
+  for (const double side : {1.0, -1.0}) {
+    Camera camera;
+    camera.width_px = 640;
+    camera.height_px = 480;
+    camera.focal_x_px = camera.focal_y_px = 500;
+    camera.center_x_px = 320;
+    camera.center_y_px = 240;
+    // Picture's right is east and its top north (looking down) or south (looking up).
+    camera.cam_from_world.rotation << 1, 0, 0, 0, -side, 0, 0, 0, -side;
+    camera.cam_from_world.translation =
+        -(camera.cam_from_world.rotation * Eigen::Vector3d(3, 4, 9));
+    const ViewTag tag = TagFromCamera(camera, 9);
+    ASSERT_FALSE(FindTagFault(tag));
+    const Camera again = CameraFromTag(tag, 640, 480);
+    for (const Eigen::Vector2d& px : {Eigen::Vector2d(0, 0), Eigen::Vector2d(640, 300)}) {
+      const Eigen::Vector3d point = camera.PositionInWorld() + 9 * UnprojectToWorld(camera, px);
+      EXPECT_LT((*Project(again, point) - px).norm(), 0.01);
     }
   }
 }

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/image_paths.h"
+
+#include "scene/scene_folder.h"
+#include "scene/text.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> PartsOf(std::string path) {
+  std::replace(path.begin(), path.end(), '\\', '/');
+  std::vector<std::string> parts;
+  for (size_t begin = 0; begin <= path.size();) {
+    const size_t end = std::min(path.find('/', begin), path.size());
+    const std::string part = path.substr(begin, end - begin);
+    if (!part.empty() && part != ".") parts.push_back(part);
+    begin = end + 1;
+  }
+  return parts;
+}
+
+// Folders and stem with '_' between.
+std::string JoinedName(const std::string& path) {
+  std::string name;
+  for (const std::string& part : PartsOf(WithoutExtension(path))) {
+    name += (name.empty() ? "" : "_") + part;
+  }
+  return name;
+}
+
+// How many parts two paths share from the end on.
+size_t NumShared(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  size_t count = 0;
+  while (count < std::min(a.size(), b.size()) && a[a.size() - 1 - count] == b[b.size() - 1 - count])
+    ++count;
+  return count;
+}
+
+}  // namespace
+
+std::string WithoutExtension(const std::string& path) {
+  return fs::path(path).replace_extension().generic_string();
+}
+
+std::vector<std::string> NamePhotographs(const std::vector<std::string>& paths) {
+  const auto stem_of = [](const std::string& path) {
+    const std::vector<std::string> parts = PartsOf(WithoutExtension(path));
+    return parts.empty() ? std::string() : parts.back();
+  };
+  // Different places (paths without their extension) that have a stem in common.
+  std::map<std::string, std::set<std::string>> places_of_stem;
+  for (const std::string& path : paths) {
+    places_of_stem[stem_of(path)].insert(JoinedName(path));
+  }
+  std::map<std::string, std::string> place_of_name;
+  std::vector<std::string> names(paths.size());
+  // Plain stems first, so that they stay what they are.
+  for (const bool is_plain : {true, false}) {
+    for (size_t i = 0; i < paths.size(); ++i) {
+      const std::string stem = stem_of(paths[i]);
+      if ((places_of_stem[stem].size() == 1) != is_plain) continue;
+      const std::string place = WithoutExtension(paths[i]);
+      const std::string name = is_plain ? stem : JoinedName(paths[i]);
+      names[i] = name;
+      for (int number = 2; place_of_name.emplace(names[i], place).first->second != place;
+           ++number) {
+        names[i] = name + "_" + std::to_string(number);
+      }
+    }
+  }
+  return names;
+}
+
+std::optional<size_t> FindImagePath(const std::vector<std::string>& paths,
+                                    const std::string& name) {
+  std::vector<std::string> wanted = PartsOf(name);
+  if (wanted.empty()) return std::nullopt;
+  std::vector<std::vector<std::string>> candidates;
+  for (const std::string& path : paths) candidates.push_back(PartsOf(path));
+  // With the extension, without it, without regard to case.
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const auto simplify = [&](std::vector<std::string>& parts) {
+      if (parts.empty()) return;
+      if (attempt == 1) parts.back() = WithoutExtension(parts.back());
+      if (attempt == 2) {
+        for (std::string& part : parts) part = LowerCase(part);
+      }
+    };
+    simplify(wanted);
+    size_t most = 0;
+    std::optional<size_t> best;
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      simplify(candidates[i]);
+      if (candidates[i] == wanted && attempt == 0) return i;
+      const size_t shared = NumShared(candidates[i], wanted);
+      if (shared == 0 || shared < most) continue;
+      best = shared > most ? std::optional(i) : std::nullopt;
+      most = shared;
+    }
+    if (best) return best;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> ListFilesBelow(const fs::path& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator
+           entry(folder, fs::directory_options::skip_permission_denied, error),
+       end;
+       !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->path().filename().string().front() == '.') {
+      entry.disable_recursion_pending();
+    } else if (entry->is_regular_file(ignored)) {
+      files.push_back(entry->path().lexically_relative(folder).generic_string());
+    }
+  }
+  std::sort(files.begin(), files.end(), NaturalLess);
+  return files;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// What photographs are called, given their paths below the folder of images ("north/0001.jpg"):
+// the stem ("0001"), or, for those whose stem others have too, the folders before it as well
+// ("north_0001"). Two names are the same only if two paths differ in nothing but the extension.
+std::vector<std::string> NamePhotographs(const std::vector<std::string>& paths);
+
+// A path without its extension.
+std::string WithoutExtension(const std::string& path);
+
+// Which of the paths another program's name of an image means, folders and extension as far as they
+// help: the path itself, else the one that shares most from the end on; nothing if none or several
+// do. Absolute paths and backslashes are understood.
+std::optional<size_t> FindImagePath(const std::vector<std::string>& paths, const std::string& name);
+
+// The files of a folder and of those below it, as paths in it with slashes, in natural order;
+// hidden ones left out; none if there is no folder.
+std::vector<std::string> ListFilesBelow(const std::filesystem::path& folder);
+
+}  // namespace groundglass
