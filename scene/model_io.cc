@@ -67,6 +67,7 @@ ModelReading ReadModel(const std::filesystem::path& file, const ModelOptions& op
 std::string FormatObj(const PolygonModel& model) {
   std::string text = std::string("# Polygon model; x east, y north, z up.\n# unit: ") +
                      UnitName(model.unit) + "\n";
+  if (model.sigma) text += "# sigma: " + FormatNumber(*model.sigma) + "\n";
   for (const Eigen::Vector3d& point : model.points_in_world) {
     text += "v " + FormatNumber(point.x() + 0.0) + " " + FormatNumber(point.y() + 0.0) + " " +
             FormatNumber(point.z() + 0.0) + "\n";

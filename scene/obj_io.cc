@@ -3,6 +3,7 @@
 #include "scene/obj_io.h"
 
 #include "scene/error.h"
+#include "scene/model_sigma.h"
 #include "scene/text.h"
 #include "scene/view_io.h"
 
@@ -86,10 +87,16 @@ ObjReading ReadObj(const std::filesystem::path& file) {
   const std::string text = ReadTextFile(file);
   std::string name;
   std::string material;
-  for (const TextLine& line : SplitLines(text, '#')) {
+  constexpr std::string_view kSigmaKey = "sigma:";
+  const TextLine* sigma_line = nullptr;  // read last: it is in the model's unit
+  const std::vector<TextLine> lines = SplitLines(text, '#');
+  for (const TextLine& line : lines) {
     if (line.has_comment && LowerCase(line.comment.substr(0, 5)) == "unit:") {
       const auto unit = FindUnit(TrimBlanks(line.comment.substr(5)));
       if (unit) reading.unit = unit;
+    }
+    if (line.has_comment && LowerCase(line.comment.substr(0, kSigmaKey.size())) == kSigmaKey) {
+      sigma_line = &line;
     }
     if (line.tokens.empty()) continue;
     const std::string_view keyword = line.tokens.front().text;
@@ -115,6 +122,11 @@ ObjReading ReadObj(const std::filesystem::path& file) {
       reading.libraries.push_back(RestOfLine(line));
     }
     // Normals, smoothing groups, lines and curves tell nothing that is used here.
+  }
+  if (sigma_line) {
+    if (reading.unit) reading.model.unit = *reading.unit;
+    ReadSigmaComment(
+        sigma_line->comment.substr(kSigmaKey.size()), file, sigma_line->number, reading.model);
   }
   return reading;
 }

@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "scene/frames.h"
 #include "scene/model_io.h"
+#include "scene/model_sigma.h"
 #include "scene/text.h"
 #include "scene/view_io.h"
 
@@ -39,7 +40,9 @@ std::vector<double> FieldNumbers(const std::filesystem::path& name,
   throw Error(name, line, "expected '% " + expected + "'");
 }
 
-// What the comments say of the whole model: its unit, and where on Earth it stands.
+constexpr std::string_view kSigmaKey = "sigma:";
+
+// What the comments say of the whole model: its unit, its tolerance, and where on Earth it stands.
 void ReadModelComments(const std::filesystem::path& name,
                        const std::vector<TextLine>& lines,
                        PolygonModel& model) {
@@ -48,9 +51,8 @@ void ReadModelComments(const std::filesystem::path& name,
       const std::string unit = words->empty() ? "" : LowerCase(words->front().text);
       const std::optional<LengthUnit> known = FindUnit(unit);
       if (!known) {
-        throw Error(name,
-                    line.number,
-                    "unit " + Quote(unit) + " is not known; expected " + UnitNames());
+        throw Error(
+            name, line.number, "unit " + Quote(unit) + " is not known; expected " + UnitNames());
       }
       model.unit = *known;
     } else if (const auto origin = CommentField(line, "origin:")) {
@@ -73,6 +75,8 @@ void ReadModelComments(const std::filesystem::path& name,
           FieldNumbers(name, line.number, *north, 1, "north: DEGREES");
       // North alone places nothing on Earth.
       if (model.georeference) model.georeference->north_deg = numbers[0];
+    } else if (CommentField(line, kSigmaKey)) {
+      ReadSigmaComment(line.comment.substr(kSigmaKey.size()), name, line.number, model);
     }
   }
 }
@@ -274,6 +278,7 @@ std::string FormatOsu(const PolygonModel& model) {
       "% LEFT-handed: x east, y south, z up. Faces list point numbers, from 1, counterclockwise\n"
       "% as seen from the front.\n";
   text += std::string("% unit: ") + UnitName(model.unit) + "\n";
+  if (model.sigma) text += "% sigma: " + FormatNumber(*model.sigma) + "\n";
   if (model.georeference) {
     const Georeference& place = *model.georeference;
     text += "% origin: " + FormatNumber(place.latitude_deg) + " " +

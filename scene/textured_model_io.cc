@@ -105,8 +105,9 @@ void WriteTexturedObj(const std::filesystem::path& file,
   WriteFileAtomically(library, materials);
 
   std::string text = std::string("# Groundglass: x east, y north, z up.\n# unit: ") +
-                     UnitName(model.model.unit) + "\nmtllib " +
-                     library.filename().string() + "\n";
+                     UnitName(model.model.unit) + "\n";
+  if (model.model.sigma) text += "# sigma: " + FormatNumber(*model.model.sigma) + "\n";
+  text += "mtllib " + library.filename().string() + "\n";
   for (const Eigen::Vector3d& point : model.model.points_in_world) {
     text += "v " + FormatNumber(point.x() + 0.0) + " " + FormatNumber(point.y() + 0.0) + " " +
             FormatNumber(point.z() + 0.0) + "\n";
