@@ -5,6 +5,7 @@
 #include "calibrate/board_solve.h"
 #include "calibrate/tag_corners.h"
 #include "calibrate/tag_detection.h"
+#include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/srgb.h"
@@ -188,8 +189,9 @@ void CheckSizes(std::span<const BoardPhotograph> photographs) {
 }  // namespace
 
 void Board::Check() const {
-  if (columns < 2 || rows < 2) throw Error("board: columns and rows must be at least 2");
-  if (!(tag_size > 0)) throw Error("board: tag size must be > 0");
+  CheckFromTo(columns, 2, kNumTagIds, "board: columns");
+  CheckFromTo(rows, 2, kNumTagIds, "board: rows");
+  CheckAbove(tag_size, 0, "board: tag size");
   if (!(gap >= 0.1 * tag_size && gap <= tag_size)) {
     throw Error(
         "board: gap must be between a tenth of the tag size and the tag size; a tag needs "
@@ -202,8 +204,8 @@ void Board::Check() const {
 }
 
 void BoardOptions::Check() const {
-  if (min_tags < 1) throw Error("board: min_tags must be at least 1");
-  if (!(max_rms_px > 0)) throw Error("board: max_rms_px must be > 0");
+  CheckFromTo(min_tags, 1, kNumTagIds, "board: min_tags");
+  CheckAbove(max_rms_px, 0, "board: max_rms_px");
 }
 
 Eigen::Matrix<double, 2, 4> TagCornersOnBoard(const Board& board, int index) {

@@ -8,6 +8,7 @@
 #include "scene/frames.h"
 #include "scene/image_io.h"
 #include "scene/pose_check.h"
+#include "scene/model_sigma.h"
 #include "viewer/overlay.h"
 
 #include <tbb/parallel_for.h>
@@ -88,15 +89,13 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
       ->allow_extra_args(false)
       ->group(by_hand);
   const std::string group = "Standard deviations where the tag does not say";
-  command->add_option("--sigma-position", prior.position_m, "across, metres")
-      ->capture_default_str()
+  command
+      ->add_option("--sigma-position",
+                   prior.position_m,
+                   "across, metres; 0.076 if not given, less at a maquette")
       ->group(group);
-  command->add_option("--sigma-height", prior.height_m, "metres")
-      ->capture_default_str()
-      ->group(group);
-  command->add_option("--sigma-lookat", prior.lookat_m, "metres")
-      ->capture_default_str()
-      ->group(group);
+  command->add_option("--sigma-height", prior.height_m, "metres; 0.03 likewise")->group(group);
+  command->add_option("--sigma-lookat", prior.lookat_m, "metres; 0.122 likewise")->group(group);
   command->add_option("--sigma-roll", prior.roll_deg, "degrees")
       ->capture_default_str()
       ->group(group);
@@ -167,9 +166,12 @@ Manifest DescribeInputs(const std::string& command,
   }
   const PriorOptions& prior = arguments.options.prior;
   manifest.options["unit"] = UnitName(scene.model.unit);
-  manifest.options["sigma-position"] = FormatSigma(prior.position_m);
-  manifest.options["sigma-height"] = FormatSigma(prior.height_m);
-  manifest.options["sigma-lookat"] = FormatSigma(prior.lookat_m);
+  const auto length = [](const std::optional<double>& metres) {
+    return metres ? FormatSigma(*metres) : std::string("default");
+  };
+  manifest.options["sigma-position"] = length(prior.position_m);
+  manifest.options["sigma-height"] = length(prior.height_m);
+  manifest.options["sigma-lookat"] = length(prior.lookat_m);
   manifest.options["sigma-roll"] = FormatSigma(prior.roll_deg);
   manifest.options["sigma-v"] = FormatSigma(prior.view_angle_share);
   manifest.options["sigma-a"] = FormatSigma(prior.aspect_share);
@@ -223,25 +225,38 @@ RegisteredScene RegisterAndWrite(const Scene& scene,
   return registered;
 }
 
+void PrintModelSigma(const PolygonModel& model) {
+  std::printf("the model's edges may lie off by %s\n", DescribeModelSigma(model).c_str());
+}
+
 void PrintRegistrations(const std::vector<Registration>& registrations) {
-  std::printf("%-12s %-9s %9s %8s %8s  %s\n",
+  const auto number = [](const std::optional<double>& value, const char* format) {
+    char text[32] = "-";
+    if (value) std::snprintf(text, sizeof text, format, *value);
+    return std::string(text);
+  };
+  std::printf("%-12s %-9s %9s %8s %9s %8s %8s  %s\n",
               "photograph",
               "verdict",
               "moved px",
               "rms px",
+              "robust px",
               "score",
+              "margin",
               "why not accepted");
   for (const Registration& registration : registrations) {
     std::string reasons;
     for (const std::string& reason : registration.reasons) {
       reasons += (reasons.empty() ? "" : "; ") + reason;
     }
-    std::printf("%-12s %-9s %9.1f %8.2f %8.0f  %s\n",
+    std::printf("%-12s %-9s %9.1f %8s %9s %8.0f %8s  %s\n",
                 registration.name.c_str(),
                 std::string(VerdictName(registration.verdict)).c_str(),
                 registration.moved_px,
-                registration.rms_px,
+                number(registration.rms_px, "%.2f").c_str(),
+                number(registration.robust_sigma_px, "%.2f").c_str(),
                 registration.score_nats,
+                number(registration.margin_nats, "%.0f").c_str(),
                 reasons.c_str());
   }
 }

@@ -44,7 +44,10 @@ RegisteredScene RegisterAndWrite(const Scene& scene,
                                  const RegisterArguments& arguments,
                                  const CommonOptions& common);
 
-// The table that a person reads: verdict, how far the picture moved, score, reasons.
+// How far the model's edges may lie off, and whether that is a default.
+void PrintModelSigma(const PolygonModel& model);
+// The table that a person reads: verdict, how far the picture moved, how its edges scatter about
+// the model's (root mean square, and robustly), score, margin over the best rival, reasons.
 void PrintRegistrations(const std::vector<Registration>& registrations);
 // The lines of the model that are off, if any, in `site`.
 void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit unit);

@@ -38,6 +38,7 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
         std::printf("%s",
                     FormatRegistrations(registered.registrations, registered.model_errors).c_str());
       } else {
+        PrintModelSigma(scene.model);
         PrintRegistrations(registered.registrations);
         PrintModelErrors(registered.model_errors, scene.model.unit);
       }

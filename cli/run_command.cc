@@ -90,6 +90,7 @@ int Run(const RunArguments& arguments) {
     registered = RegisterAndWrite(scene, registering, common);
   }
   if (!common.json) {
+    PrintModelSigma(scene.model);
     PrintRegistrations(registrations);
     PrintModelErrors(registered.model_errors, scene.model.unit);
   }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <functional>
 
 namespace groundglass {
@@ -71,7 +72,8 @@ void SynthRecipe::Check() const {
   }
   VisitFields(*this, [](const std::string& path, const auto& value) {
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
-      if (path != "lens/k1" && !(value >= 0)) {
+      if (!std::isfinite(value)) throw Error("recipe field " + path + " must be a finite number");
+      if (path != "lens/k1" && value < 0) {
         throw Error("recipe field " + path + " must not be negative");
       }
     }

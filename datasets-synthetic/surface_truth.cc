@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "datasets-synthetic/surface_truth.h"
 
+#include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/frames.h"
 
@@ -174,8 +175,15 @@ class ChartPainter {
 
 }  // namespace
 
+void SurfaceTruthOptions::Check() const {
+  CheckAbove(texel, 0, "surface truth options: texel");
+  CheckFromTo(page_width_px, 1, 65536, "surface truth options: page_width_px");
+  CheckFromTo(page_height_px, 1, 65536, "surface truth options: page_height_px");
+}
+
 std::vector<SurfaceChart> LayOutSurfaces(const PolygonModel& model,
                                          const SurfaceTruthOptions& options) {
+  options.Check();
   std::vector<SurfaceChart> charts;
   int page_width = options.page_width_px;
   int page_height = options.page_height_px;

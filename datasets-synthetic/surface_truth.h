@@ -57,6 +57,8 @@ struct SurfaceTruthOptions {
   double texel = 0.125;      // width, in the model's unit
   int page_width_px = 4096;  // wider if a face needs it
   int page_height_px = 2048;
+
+  void Check() const;  // throws Error naming the first field out of range
 };
 
 // A chart for each face, packed on as few pages as shelves allow.

@@ -5,6 +5,7 @@
 #include "datasets-synthetic/camera_errors.h"
 #include "datasets-synthetic/noise.h"
 #include "register/register_scene.h"
+#include "scene/check_option.h"
 #include "scene/error.h"
 
 #include <nlohmann/json.hpp>
@@ -85,11 +86,11 @@ double ShareInPercent(int part, int whole) { return whole > 0 ? 100.0 * part / w
 }  // namespace
 
 void TrialOptions::Check() const {
-  if (num_trials < 1) throw Error("the number of trials must be at least 1");
-  for (const double sigma : {sigma_position, sigma_height, sigma_lookat}) {
-    if (!(sigma > 0)) throw Error("the trials' sigmas must be above 0");
-  }
-  if (num_blunders < 0) throw Error("the number of blunders must not be negative");
+  CheckAtLeast(num_trials, 1, "trial options: num_trials");
+  CheckAbove(sigma_position, 0, "trial options: sigma_position");
+  CheckAbove(sigma_height, 0, "trial options: sigma_height");
+  CheckAbove(sigma_lookat, 0, "trial options: sigma_lookat");
+  CheckAtLeast(num_blunders, 0, "trial options: num_blunders");
   registration.Check();
 }
 

@@ -17,6 +17,7 @@
 #include "invrender/prepared_photo.h"
 #include "invrender/sharpness.h"
 #include "invrender/texel_size.h"
+#include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/scene_folder.h"
@@ -243,19 +244,13 @@ TexturedModel MakeTexturedModel(const PolygonModel& model,
 }  // namespace
 
 void BakeOptions::Check() const {
-  if (!(texel_size >= 0) || !std::isfinite(texel_size)) {
-    throw Error("texel_size must be 0 (automatic) or more");
-  }
-  if (max_page_texels < 64 || max_page_texels > 32768) {
-    throw Error("max_page_texels must be from 64 to 32768");
-  }
-  if (gutter_texels < 1 || gutter_texels > 24) throw Error("gutter_texels must be from 1 to 24");
-  if (!(border_margin_px >= 0 && border_margin_px <= 20)) {
-    throw Error("border_margin_px must be from 0 to 20");
-  }
+  CheckAtLeast(texel_size, 0, "texel_size");
+  CheckFromTo(max_page_texels, 64, 32768, "max_page_texels");
+  CheckFromTo(gutter_texels, 1, 24, "gutter_texels");
+  CheckFromTo(border_margin_px, 0, 20, "border_margin_px");
+  CheckFromTo(frame_margin, 0, 0.4, "frame_margin");
+  CheckAtLeast(max_memory_mb, 0, "max_memory_mb");
   if (bits != 8 && bits != 16) throw Error("bits must be 8 or 16");
-  if (max_memory_mb < 0) throw Error("max_memory_mb must be 0 (no limit) or more");
-  if (!(frame_margin >= 0 && frame_margin < 0.4)) throw Error("frame_margin must be in [0, 0.4)");
 }
 
 BakeResult BakeTextures(const PolygonModel& model,

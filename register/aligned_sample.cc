@@ -2,15 +2,23 @@
 // Part of Groundglass.
 #include "register/aligned_sample.h"
 
+#include "scene/check_option.h"
+
 #include <cmath>
 
 namespace groundglass {
 
+void EdgeBias::Check(const std::string& path) const {
+  CheckAbove(edge_offset_sigmas, 0, path + "edge_offset_sigmas");
+  CheckAbove(edge_turn_sigmas, 0, path + "edge_turn_sigmas");
+  CheckAtLeast(shared_offset_sigmas, 0, path + "shared_offset_sigmas");
+}
+
 AlignedSample MakeAlignedSample(const CandidateSample& found,
                                 const SoftMatch& match,
-                                double units_per_metre,
+                                double model_sigma,
                                 const EdgeBias& bias) {
-  const double px_per_metre = units_per_metre * found.px_per_unit;
+  const double px_per_sigma = model_sigma * found.px_per_unit;
   AlignedSample aligned;
   aligned.point_in_world = found.sample.point_in_world;
   aligned.edge = found.sample.edge;
@@ -20,9 +28,9 @@ AlignedSample MakeAlignedSample(const CandidateSample& found,
   aligned.offset_px = match.offset_px;
   aligned.precision = match.precision;
   const double coarseness_px = found.sample.coarseness * found.px_per_unit;
-  aligned.bias_px = {std::hypot(bias.edge_offset_m * px_per_metre, coarseness_px),
-                     bias.edge_turn_m * px_per_metre * found.sample.along};
-  aligned.shared_bias_px = bias.shared_offset_m * px_per_metre;
+  aligned.bias_px = {std::hypot(bias.edge_offset_sigmas * px_per_sigma, coarseness_px),
+                     bias.edge_turn_sigmas * px_per_sigma * found.sample.along};
+  aligned.shared_bias_px = bias.shared_offset_sigmas * px_per_sigma;
   aligned.is_upright = std::abs(found.sample.direction_in_world.z()) > 0.7;
   return aligned;
 }

@@ -6,17 +6,23 @@
 
 #include <Eigen/Dense>
 
+#include <string>
+
 namespace groundglass {
 
 // How far the building's lines lie from the model's: windows are recessed, eaves overhang, plans
-// are rounded. One standard deviation each, metres.
+// are rounded. One standard deviation each, in units of the model's own (ModelSigma); the figures
+// were found on buildings, whose models have 0.03 m.
 struct EdgeBias {
   // How far a model edge may lie from the building's as a whole, and its ends apart from that.
-  double edge_offset_m = 0.037;
-  double edge_turn_m = 0.037;
+  double edge_offset_sigmas = 0.037 / 0.03;
+  double edge_turn_sigmas = 0.037 / 0.03;
   // What all edges may lie off together (reveals, joints, frames). Widens the covariance and leaves
   // the solution alone.
-  double shared_offset_m = 0.016;
+  double shared_offset_sigmas = 0.016 / 0.03;
+
+  // Throws Error naming the first field out of range, behind `path`.
+  void Check(const std::string& path = "edge bias: ") const;
 };
 
 // One edge sample with what the photograph says of it.
@@ -34,9 +40,10 @@ struct AlignedSample {
   double shared_bias_px = 0;
   bool is_upright = false;
 };
+// model_sigma: in the model's unit.
 AlignedSample MakeAlignedSample(const CandidateSample& found,
                                 const SoftMatch& match,
-                                double units_per_metre,
+                                double model_sigma,
                                 const EdgeBias& bias);
 
 }  // namespace groundglass

@@ -2,13 +2,21 @@
 // Part of Groundglass.
 #include "register/camera_prior.h"
 
+#include "scene/check_option.h"
 #include "scene/error.h"
+#include "scene/model_sigma.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace groundglass {
 namespace {
+
+// What a tape and a tripod leave uncertain.
+constexpr double kPosition_m = 0.076;
+constexpr double kHeight_m = 0.030;
+constexpr double kLookat_m = 0.122;
+constexpr double kBestOfRulers_m = 0.001;
 
 bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -48,19 +56,35 @@ void PriorOptions::Check() const {
       throw Error(std::string("option ") + name + ": a standard deviation must be above 0");
     }
   };
-  require_positive(position_m, "sigma-position");
-  require_positive(height_m, "sigma-height");
-  require_positive(lookat_m, "sigma-lookat");
+  require_positive(position_m.value_or(kPosition_m), "sigma-position");
+  CheckAtLeast(position_share, 0, "prior options: position_share");
+  require_positive(height_m.value_or(kHeight_m), "sigma-height");
+  CheckAtLeast(height_share, 0, "prior options: height_share");
+  require_positive(lookat_m.value_or(kLookat_m), "sigma-lookat");
+  CheckAtLeast(lookat_share, 0, "prior options: lookat_share");
   require_positive(roll_deg, "sigma-roll");
   require_positive(view_angle_share, "sigma-v");
   require_positive(aspect_share, "sigma-a");
   require_positive(shift, "sigma-shift");
   require_positive(k1, "sigma-k1");
+  CheckAtLeast(slide_scale_share, 0, "prior options: slide_scale_share");
+  CheckAtLeast(slide_aspect_share, 0, "prior options: slide_aspect_share");
   RequireParameterNames(lock, "lock");
   RequireParameterNames(free, "free");
   for (const std::string& name : free) {
     if (Contains(lock, name)) throw Error("options lock and free: '" + name + "' is in both");
   }
+}
+
+PriorOptions PriorSuitedTo(const PolygonModel& model, PriorOptions options) {
+  const double scale = ModelScale(model);
+  const auto fill_in = [&](std::optional<double>& length_m, double at_building_m) {
+    if (!length_m) length_m = std::max(scale * at_building_m, kBestOfRulers_m);
+  };
+  fill_in(options.position_m, kPosition_m);
+  fill_in(options.height_m, kHeight_m);
+  fill_in(options.lookat_m, kLookat_m);
+  return options;
 }
 
 Camera CameraPrior::CameraAt(const CameraParameters& whitened) const {
@@ -79,10 +103,12 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
     return noted.value_or(std::max(metres * units_per_metre, share * distance));
   };
   const TagSigmas noted_sigmas = SigmasThatHold(tag.sigmas, options.free);
-  const double position =
-      length_sigma(noted_sigmas.position, options.position_m, options.position_share);
-  const double height = length_sigma(noted_sigmas.height, options.height_m, options.height_share);
-  const double lookat = length_sigma(noted_sigmas.lookat, options.lookat_m, options.lookat_share);
+  const double position = length_sigma(
+      noted_sigmas.position, options.position_m.value_or(kPosition_m), options.position_share);
+  const double height =
+      length_sigma(noted_sigmas.height, options.height_m.value_or(kHeight_m), options.height_share);
+  const double lookat =
+      length_sigma(noted_sigmas.lookat, options.lookat_m.value_or(kLookat_m), options.lookat_share);
 
   CameraPrior prior;
   prior.measured = tag;

@@ -17,11 +17,14 @@ namespace groundglass {
 // One standard deviation of what a tape and a tripod measure, where the tag itself does not say.
 struct PriorOptions {
   // Camera position: the larger of a length and a share of the distance to the look-at point.
-  double position_m = 0.076;  // a quarter of a foot, across (x and y each)
+  // Lengths that nobody gives are a tape's: 0.076 m across (a quarter of a foot; x and y each),
+  // 0.030 m for the height (a tenth of a foot) and 0.122 m (0.4 ft) for each of i, j, k; less at
+  // models smaller than a building (PriorSuitedTo).
+  std::optional<double> position_m;
   double position_share = 0.005;
-  double height_m = 0.030;  // a tenth of a foot
+  std::optional<double> height_m;
   double height_share = 0.002;
-  double lookat_m = 0.122;  // 0.4 ft, each of i, j, k
+  std::optional<double> lookat_m;
   double lookat_share = 0.01;
   double roll_deg = 1.5;
   double view_angle_share = 0.01;
@@ -42,6 +45,10 @@ struct PriorOptions {
 
   void Check() const;  // throws Error naming the first field out of range
 };
+
+// The options with the lengths that nobody gave as suit the model: at a maquette (ModelScale) a
+// ruler takes the place of the tape, and they shrink in proportion, down to a millimetre.
+PriorOptions PriorSuitedTo(const PolygonModel& model, PriorOptions options);
 
 // What is known of a photograph's camera before looking at the photograph: a normal distribution
 // over CameraParameters. Position and look-at point are measured apart, so position and direction

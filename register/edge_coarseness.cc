@@ -3,6 +3,7 @@
 #include "register/edge_coarseness.h"
 
 #include "scene/frames.h"
+#include "scene/model_sigma.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +14,11 @@ namespace {
 
 // Creases that turn by more are meant as they are drawn.
 constexpr double kSharpestRoundingDeg = 50;
-// Wide facets that meet at a shallow angle are roofs more often than roundings.
-constexpr double kMostRounding_m = 0.1;
-constexpr double kGround_m = 0.07;
+// Wide facets that meet at a shallow angle are roofs more often than roundings. In the model's
+// sigmas, as are all lengths here; buildings have 0.03 m.
+constexpr double kMostRoundingSigmas = 0.1 / 0.03;
+constexpr double kGroundSigmas = 0.07 / 0.03;
+constexpr double kGroundToleranceSigmas = 0.01 / 0.03;
 
 // How far a face reaches from an edge of its own.
 double WidthFromEdge(const PolygonModel& model, int face, const ModelEdge& edge) {
@@ -32,10 +35,11 @@ double WidthFromEdge(const PolygonModel& model, int face, const ModelEdge& edge)
 
 std::vector<EdgeCoarseness> FindEdgeCoarseness(const PolygonModel& model,
                                                const std::vector<ModelEdge>& edges) {
-  const double units_per_metre = 1 / MetresPerUnit(model.unit);
+  // However well its edges were surveyed, soil does not follow the model.
+  const double sigma = std::max(ModelSigma(model), DefaultModelSigma(model));
   double lowest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& point : model.points_in_world) lowest = std::min(lowest, point.z());
-  const double ground_tolerance = 0.01 * units_per_metre;
+  const double ground_tolerance = kGroundToleranceSigmas * sigma;
 
   std::vector<EdgeCoarseness> coarseness;
   coarseness.reserve(edges.size());
@@ -43,12 +47,12 @@ std::vector<EdgeCoarseness> FindEdgeCoarseness(const PolygonModel& model,
     EdgeCoarseness of_edge;
     if (edge.kind == ModelEdge::Kind::kBoundary) {
       const double highest_end = std::max(edge.start_in_world.z(), edge.end_in_world.z());
-      if (highest_end < lowest + ground_tolerance) of_edge = {kGround_m * units_per_metre, true};
+      if (highest_end < lowest + ground_tolerance) of_edge = {kGroundSigmas * sigma, true};
     } else if (edge.kind == ModelEdge::Kind::kCrease && edge.angle_deg <= kSharpestRoundingDeg) {
       const double chord = std::min(WidthFromEdge(model, edge.first_face, edge),
                                     WidthFromEdge(model, edge.second_face, edge));
       of_edge.sigma = std::min(chord / 2 * std::tan(RadiansFromDegrees(edge.angle_deg) / 4),
-                               kMostRounding_m * units_per_metre);
+                               kMostRoundingSigmas * sigma);
     }
     coarseness.push_back(of_edge);
   }

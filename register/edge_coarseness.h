@@ -20,6 +20,7 @@ struct EdgeCoarseness {
 //   by the angle a.
 // - Where walls meet the ground, soil, plinth and plants do not follow the plan: boundary edges on
 //   the model's lowest level.
+// Both grow with the model's sigma where that is larger than what its size suggests.
 std::vector<EdgeCoarseness> FindEdgeCoarseness(const PolygonModel& model,
                                                const std::vector<ModelEdge>& edges);
 

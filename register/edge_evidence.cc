@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/edge_evidence.h"
 
+#include "scene/frames.h"
 #include "scene/srgb.h"
 
 #include <opencv2/imgproc.hpp>
@@ -44,11 +45,12 @@ void ScaleByNoise(ImageF& gradient) {
       magnitudes.push_back(std::hypot(g[0], g[1]));
     }
   }
-  // The median magnitude: most of a photograph is surface, not edge. Flat skies would make it too
-  // small, so it never counts as less than a tenth of a grey level.
+  // The median magnitude: most of a photograph is surface, not edge. Flat skies and clipped whites
+  // would make it too small, so it never counts as less than 0.4 grey levels for each pixel.
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
   std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  const float noise = std::max(0.4f, *middle);
+  constexpr float kLeastNoise = 0.4f;
+  const float noise = std::max(kLeastNoise, *middle);
   for (float& value : gradient.values) value /= noise;
 }
 
@@ -132,7 +134,7 @@ std::vector<EdgeCandidate> EdgeEvidence::FindCandidates(const Eigen::Vector2d& i
   constexpr float kMinStrength = 1.5f;
   const Level& level = AtScale(range_px / 12);
   const ImageF& gradient = level.gradient;
-  const double cos_gate = std::cos(gate_deg / 57.29577951308232);
+  const double cos_gate = std::cos(RadiansFromDegrees(gate_deg));
   const int reach = static_cast<int>(std::ceil(range_px / level.scale)) + 1;
 
   const Eigen::Vector2d origin = image_px / level.scale;

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "register/edge_matches.h"
 
+#include "scene/check_option.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,6 +16,14 @@ double NormalDensity(double x, double sigma) {
 }
 
 }  // namespace
+
+void MatchOptions::Check(const std::string& path) const {
+  CheckAbove(final_range_px, 0, path + "final_range_px");
+  CheckFromTo(max_candidates, 1, 1000, path + "max_candidates");
+  CheckFromTo(gate_deg, 0.1, 90, path + "gate_deg");
+  CheckFromTo(outlier_share, 0.001, 0.999, path + "outlier_share");
+  CheckAbove(vote_length_px, 0, path + "vote_length_px");
+}
 
 std::vector<CandidateSample> FindCandidateSamples(const std::vector<EdgeSample>& samples,
                                                   const EdgeEvidence& evidence,
@@ -28,7 +38,9 @@ std::vector<CandidateSample> FindCandidateSamples(const std::vector<EdgeSample>&
   for (size_t i = 0; i < samples.size(); ++i) {
     if (!projected[i].is_valid) continue;
     const double prior_px = (projected[i].jacobian * prior.root).norm();
-    const double range_px = std::max(min_range_px, 3 * range_sigmas * prior_px);
+    const double loose_px = 3 * samples[i].looseness * projected[i].px_per_unit;
+    const double range_px =
+        std::max(std::hypot(min_range_px, loose_px), 3 * range_sigmas * prior_px);
     std::vector<EdgeCandidate> candidates = evidence.FindCandidates(projected[i].image_px,
                                                                     projected[i].normal,
                                                                     range_px,

@@ -6,6 +6,7 @@
 #include "register/edge_evidence.h"
 #include "register/edge_samples.h"
 
+#include <string>
 #include <vector>
 
 namespace groundglass {
@@ -20,6 +21,9 @@ struct MatchOptions {
   double outlier_share = 0.15;
   // Edge that counts as one independent observation.
   double vote_length_px = 20;
+
+  // Throws Error naming the first field out of range, behind `path`.
+  void Check(const std::string& path = "match options: ") const;
 };
 
 // A sample with all that the photograph offers for it.
@@ -33,7 +37,8 @@ struct CandidateSample {
 };
 
 // Searches the photograph along the normal of each sample: three of the prior's standard deviations
-// there times range_sigmas, and at least min_range_px. Samples without a candidate are left out.
+// there times range_sigmas, and at least min_range_px, with three sigmas of a loose model's edges
+// on top (EdgeSample::looseness). Samples without a candidate are left out.
 std::vector<CandidateSample> FindCandidateSamples(const std::vector<EdgeSample>& samples,
                                                   const EdgeEvidence& evidence,
                                                   const CameraPrior& prior,

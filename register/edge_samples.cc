@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "register/edge_samples.h"
 
+#include "scene/model_sigma.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +13,11 @@ EdgeModel::EdgeModel(const PolygonModel& model_)
     : model(model_),
       edges(FindModelEdges(model_)),
       coarseness(FindEdgeCoarseness(model_, edges)),
-      visibility(model_) {}
+      visibility(model_),
+      sigma(ModelSigma(model_)) {
+  const double usual = DefaultModelSigma(model);
+  looseness = sigma > usual ? std::sqrt(sigma * sigma - usual * usual) : 0;
+}
 
 std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
                                            const Camera& camera,
@@ -45,7 +51,8 @@ std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
                          span.edge,
                          along,
                          length_px / count,
-                         edge_model.coarseness[span.edge].sigma});
+                         edge_model.coarseness[span.edge].sigma,
+                         edge_model.looseness});
     }
   }
   return samples;

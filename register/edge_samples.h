@@ -23,6 +23,11 @@ struct EdgeModel {
   // For each edge (FindEdgeCoarseness).
   std::vector<EdgeCoarseness> coarseness;
   Visibility visibility;
+  // How far its edges may lie off, one standard deviation, model's unit (ModelSigma); and how much
+  // of that is more than a model of its size has by default, and so more than the widths in pixels
+  // of the search, the matching and the score allow for.
+  double sigma = 0;
+  double looseness = 0;
 };
 
 // A point on a visible model edge, where the photograph is asked for an edge.
@@ -33,6 +38,7 @@ struct EdgeSample {
   double along = 0;       // where on the edge: -1 at its start, 1 at its end
   double spacing_px = 0;  // the length of edge it stands for
   double coarseness = 0;  // of its edge, model's unit (EdgeModel)
+  double looseness = 0;   // of the model, its unit (EdgeModel)
 };
 
 // Samples every spacing_px along the edges that the camera sees; none within 3 px of the frame's

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "register/hypotheses.h"
 
+#include "scene/check_option.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -83,6 +85,8 @@ struct LinearSamples {
   std::vector<float> votes;
   // 2N x 11: displacement in px for one standard deviation of each leading direction.
   Eigen::Matrix<double, Eigen::Dynamic, kNumCameraParameters> moves;
+  // How far a loose model's edges may lie off, one sigma, root mean square, px.
+  double loose_px = 0;
   // Root mean square of the displacement along the normals, px per standard deviation.
   CameraParameters rms_px;
   // Columns: the leading directions in whitened parameters.
@@ -94,6 +98,7 @@ LinearSamples Linearise(const std::vector<EdgeSample>& samples, const CameraPrio
   LinearSamples linear;
   std::vector<Eigen::Matrix<double, 2, kNumCameraParameters>> by_whitened;
   CameraCovariance information = CameraCovariance::Zero();
+  double loose_sum = 0;
   for (const EdgeSample& sample : samples) {
     const auto projected = ProjectSamples({sample}, projection)[0];
     if (!projected.is_valid) continue;
@@ -102,11 +107,13 @@ LinearSamples Linearise(const std::vector<EdgeSample>& samples, const CameraPrio
     linear.bins.push_back(BinOfNormal(projected.normal));
     linear.votes.push_back(static_cast<float>(sample.spacing_px / kVoteLengthPx));
     by_whitened.push_back(full->jacobian * prior.root);
+    loose_sum += std::pow(sample.looseness * projected.px_per_unit, 2);
     const Eigen::Matrix<double, 1, kNumCameraParameters> across =
         projected.normal.transpose() * by_whitened.back();
     information += across.transpose() * across;
   }
   const double count = std::max<double>(1, static_cast<double>(by_whitened.size()));
+  linear.loose_px = std::sqrt(loose_sum / count);
   const Eigen::SelfAdjointEigenSolver<CameraCovariance> eigen(information / count);
   linear.directions = eigen.eigenvectors().rowwise().reverse();
   linear.rms_px = eigen.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
@@ -221,14 +228,28 @@ void Climb(const LinearSamples& linear, const ScoreMaps& maps, double step_px, S
 
 }  // namespace
 
+void HypothesisOptions::Check(const std::string& path) const {
+  CheckFromTo(reach_sigmas, 0.1, 20, path + "reach_sigmas");
+  CheckFromTo(width_cells, 16, 10000, path + "width_cells");
+  CheckFromTo(step_cells, 0.1, 100, path + "step_cells");
+  CheckFromTo(max_grid_points, 1, 100000000, path + "max_grid_points");
+  CheckFromTo(max_starts, 0, 1000, path + "max_starts");
+  CheckFromTo(distinct_cells, 0, 100, path + "distinct_cells");
+  CheckAtLeast(again_below_nats_per_vote, 0, path + "again_below_nats_per_vote");
+  CheckFromTo(max_rounds, 1, 20, path + "max_rounds");
+  CheckFromTo(num_centres, 1, 1000, path + "num_centres");
+}
+
 std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
                                        const CameraPrior& prior,
                                        const EdgeEvidence& evidence,
                                        const HypothesisOptions& options) {
   const LinearSamples linear = Linearise(samples, prior);
   const double px_per_cell = static_cast<double>(prior.width_px) / options.width_cells;
-  const ScoreMaps coarse(evidence.AtScale(px_per_cell * 1.01), options.step_cells / 1.5);
-  const ScoreMaps fine(evidence.AtScale(px_per_cell * 1.01), 1.0);
+  const EdgeEvidence::Level& level = evidence.AtScale(px_per_cell * 1.01);
+  const double loose_cells = linear.loose_px / level.scale;
+  const ScoreMaps coarse(level, std::hypot(options.step_cells / 1.5, loose_cells));
+  const ScoreMaps fine(level, std::hypot(1.0, loose_cells));
 
   std::vector<ScoredPoint> points;
   for (const CameraParameters& coefficients :

@@ -6,6 +6,7 @@
 #include "register/edge_evidence.h"
 #include "register/edge_samples.h"
 
+#include <string>
 #include <vector>
 
 namespace groundglass {
@@ -30,6 +31,9 @@ struct HypothesisOptions {
   double again_below_nats_per_vote = 0.5;
   int max_rounds = 4;
   int num_centres = 3;
+
+  // Throws Error naming the first field out of range, behind `path`.
+  void Check(const std::string& path = "hypothesis options: ") const;
 };
 
 // A start for refinement: whitened parameters (CameraPrior) and its coarse log score.

@@ -9,6 +9,10 @@
 #include "register/shared_edge_cost.h"
 #include "register/standard_normal_cost.h"
 #include "register/weighted_median.h"
+#include "scene/check_option.h"
+#include "scene/error.h"
+#include "scene/model_sigma.h"
+#include "scene/text.h"
 
 #include <ceres/ceres.h>
 #include <tbb/parallel_for.h>
@@ -45,23 +49,22 @@ struct MatchedRun {
   std::vector<AlignedSample> samples;
 };
 
-EdgeFrame FrameOfEdge(const PolygonModel& model,
-                      const ModelEdge& edge,
-                      const JointOptions& options) {
-  const double scale_units = options.common_offset_m / MetresPerUnit(model.unit);
+EdgeFrame FrameOfEdge(double model_sigma, const ModelEdge& edge, const JointOptions& options) {
+  const double scale_units = options.common_offset_sigmas * model_sigma;
   const Eigen::Vector3d direction = (edge.end_in_world - edge.start_in_world).normalized();
   const Eigen::Vector3d first = direction.unitOrthogonal();
   EdgeFrame frame;
   frame.across.col(0) = scale_units * first;
   frame.across.col(1) = scale_units * direction.cross(first);
-  frame.turn_ratio = options.common_turn_m / options.common_offset_m;
+  frame.turn_ratio = options.common_turn_sigmas / options.common_offset_sigmas;
   return frame;
 }
 
 // All edges on the ground as one: soil and plants hide the foot of every wall alike.
 EdgeFrame FrameOfGround(const PolygonModel& model, const JointOptions& options) {
   EdgeFrame frame;
-  frame.across(2, 0) = options.ground_level_m / MetresPerUnit(model.unit);
+  frame.across(2, 0) =
+      options.ground_level_sigmas * std::max(ModelSigma(model), DefaultModelSigma(model));
   frame.turn_ratio = 0;
   return frame;
 }
@@ -76,7 +79,6 @@ class JointSolver {
         photographs_(photographs),
         options_(options),
         own_bias_(options.own),
-        units_per_metre_(1 / MetresPerUnit(edge_model.model.unit)),
         edges_(edge_model.edges.size()) {
     ground_.frame = FrameOfGround(edge_model.model, options);
     const LensParameters own_shares(
@@ -90,24 +92,26 @@ class JointSolver {
                          0});
       for (const CandidateSample& found : photograph.found) {
         const int edge = found.sample.edge;
-        edges_[edge].frame = FrameOfEdge(edge_model.model, edge_model.edges[edge], options);
+        edges_[edge].frame = FrameOfEdge(edge_model.sigma, edge_model.edges[edge], options);
       }
     }
     StartLenses();
   }
 
-  // Chooses candidates anew about the present solution.
-  void Match(double range_px) {
+  // Chooses candidates anew about the present solution, within a range that is so much smaller than
+  // the first (1: the first).
+  void Match(double shrink) {
     runs_.clear();
     for (MovingEdge& edge : edges_) edge.num_photographs = 0;
     own_size_sum_ = 0;
-    for (size_t p = 0; p < photographs_.size(); ++p) MatchPhotograph(p, range_px);
+    for (size_t p = 0; p < photographs_.size(); ++p) MatchPhotograph(p, shrink);
     if (!runs_.empty()) {
-      own_bias_.edge_offset_m = std::clamp(
-          own_bias_.edge_offset_m * std::sqrt(own_size_sum_ / static_cast<double>(runs_.size())),
-          options_.least_own_offset_m,
-          options_.most_own_offset_m);
-      own_bias_.edge_turn_m = own_bias_.edge_offset_m;
+      own_bias_.edge_offset_sigmas =
+          std::clamp(own_bias_.edge_offset_sigmas *
+                         std::sqrt(own_size_sum_ / static_cast<double>(runs_.size())),
+                     options_.least_own_offset_sigmas,
+                     options_.most_own_offset_sigmas);
+      own_bias_.edge_turn_sigmas = own_bias_.edge_offset_sigmas;
     }
   }
 
@@ -137,7 +141,7 @@ class JointSolver {
       double* block = edge.displacement.data();
       if (!problem_->HasParameterBlock(block)) continue;
       // Tails end somewhere: no building is off by a room.
-      const double widest = options_.widest_offset_m / options_.common_offset_m;
+      const double widest = options_.widest_offset_sigmas / options_.common_offset_sigmas;
       edge.prior_costs = {
           problem_->AddResidualBlock(new StandardNormalCost<4>, new ceres::CauchyLoss(1), block),
           problem_->AddResidualBlock(
@@ -163,6 +167,10 @@ class JointSolver {
     solver.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, problem_.get(), &summary);
+    if (!summary.IsSolutionUsable()) {
+      throw Error("register: the photographs' common solution was not found: " +
+                  OneLine(summary.message));
+    }
   }
 
   // Where edges were found farther from the model, more may also be hidden that moves all edges
@@ -173,12 +181,14 @@ class JointSolver {
 
  private:
   void StartLenses();
-  void MatchPhotograph(size_t p, double range_px);
+  void MatchPhotograph(size_t p, double shrink);
+  double RangeOf(const CandidateSample& found, double shrink) const;
   // What moves an edge: its own displacement, or the ground's.
   MovingEdge& MoverOf(int edge) {
     return edge_model_.coarseness[edge].on_ground ? ground_ : edges_[edge];
   }
   std::vector<double*> Blocks();
+  std::optional<ResidualSpread> SpreadOf(size_t p) const;
   Eigen::MatrixXd SharedPushes(const NormalEquations& equations) const;
   Eigen::MatrixXd MovesWithoutFamilies(const NormalEquations& equations) const;
 
@@ -187,7 +197,6 @@ class JointSolver {
   const JointOptions& options_;
   EdgeBias own_bias_;
   double own_size_sum_ = 0;  // over the runs of the last matching, in units of own_bias_
-  double units_per_metre_;
   std::vector<MovingPhotograph> moving_;
   std::vector<LensParameters> lenses_;
   std::vector<MovingEdge> edges_;  // for each of EdgeModel::edges
@@ -212,7 +221,7 @@ void JointSolver::StartLenses() {
   for (int i = 0; i < num_lenses; ++i) lenses_[i] /= std::max(1, counts[i]);
 }
 
-void JointSolver::MatchPhotograph(size_t p, double range_px) {
+void JointSolver::MatchPhotograph(size_t p, double shrink) {
   const AlignedPhotograph& photograph = photographs_[p];
   MovingPhotograph& moving = moving_[p];
   const ParameterProjection projection =
@@ -233,10 +242,11 @@ void JointSolver::MatchPhotograph(size_t p, double range_px) {
                              mover.frame.Displacement(mover.displacement, sample.sample.along));
       if (!projected) continue;
       const double predicted_px = sample.normal.dot(projected->image_px - sample.origin_px);
+      const double range_px = RangeOf(sample, shrink);
       const SoftMatch match =
           MatchCandidates(sample, predicted_px, range_px, moving.noise_px, options_.matching);
       if (!(match.precision > 0)) continue;
-      run.samples.push_back(MakeAlignedSample(sample, match, units_per_metre_, own_bias_));
+      run.samples.push_back(MakeAlignedSample(sample, match, edge_model_.sigma, own_bias_));
       run_residuals_px.push_back(match.offset_px - predicted_px);
       residuals.push_back({std::abs(match.offset_px - predicted_px), match.precision});
     }
@@ -255,19 +265,30 @@ void JointSolver::MatchPhotograph(size_t p, double range_px) {
                                options_.matching.final_range_px / 2);
 }
 
+// How far to both sides of where a sample is predicted its edge is taken: at first all of a loose
+// model's error, at the end what single photographs see of it.
+double JointSolver::RangeOf(const CandidateSample& found, double shrink) const {
+  const double loose_px = found.sample.looseness * found.px_per_unit;
+  const double final_px =
+      std::hypot(options_.matching.final_range_px, 3 * options_.own.edge_offset_sigmas * loose_px);
+  return std::max(final_px, shrink * std::hypot(options_.start_range_px, 3 * loose_px));
+}
+
 void JointSolver::EstimateSharedOffset() {
-  std::vector<double> offsets_m;
+  std::vector<double> offsets_sigmas;
   for (size_t number = 0; number < edges_.size(); ++number) {
     const MovingEdge& edge = edges_[number];
     // The ground has a level of its own; its edges' displacements stay zero and say nothing.
     if (edge.num_photographs < 2 || edge_model_.coarseness[number].on_ground) continue;
-    offsets_m.push_back(edge.frame.Displacement(edge.displacement, 0).norm() / units_per_metre_);
+    offsets_sigmas.push_back(edge.frame.Displacement(edge.displacement, 0).norm() /
+                             edge_model_.sigma);
   }
-  if (offsets_m.empty()) return;
-  const auto quartile = offsets_m.begin() + static_cast<std::ptrdiff_t>(offsets_m.size() * 3 / 4);
-  std::nth_element(offsets_m.begin(), quartile, offsets_m.end());
-  own_bias_.shared_offset_m =
-      std::clamp(*quartile, options_.least_shared_offset_m, options_.most_shared_offset_m);
+  if (offsets_sigmas.empty()) return;
+  const auto quartile =
+      offsets_sigmas.begin() + static_cast<std::ptrdiff_t>(offsets_sigmas.size() * 3 / 4);
+  std::nth_element(offsets_sigmas.begin(), quartile, offsets_sigmas.end());
+  own_bias_.shared_offset_sigmas = std::clamp(
+      *quartile, options_.least_shared_offset_sigmas, options_.most_shared_offset_sigmas);
 }
 
 std::vector<double*> JointSolver::Blocks() {
@@ -316,6 +337,26 @@ Eigen::MatrixXd JointSolver::MovesWithoutFamilies(const NormalEquations& equatio
   return moves;
 }
 
+// How a photograph's matched samples scatter about the model's edges as the model has them.
+std::optional<ResidualSpread> JointSolver::SpreadOf(size_t p) const {
+  const MovingPhotograph& moving = moving_[p];
+  const ParameterProjection projection =
+      moving.prior.ProjectionAt(moving.own, lenses_[moving.lens]);
+  std::vector<WeightedValue> residuals;
+  for (const MatchedRun& run : runs_) {
+    if (run.photograph != p) continue;
+    for (const AlignedSample& sample : run.samples) {
+      const auto projected = projection.Project(sample.point_in_world);
+      if (!projected) continue;
+      residuals.push_back(
+          {sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px,
+           sample.precision});
+    }
+  }
+  if (residuals.empty()) return std::nullopt;
+  return MeasureSpread(std::move(residuals));
+}
+
 JointRefinement JointSolver::Result() {
   const NormalEquations equations(*problem_, Blocks());
   const Eigen::MatrixXd by_shared = equations.Answer(SharedPushes(equations).sparseView());
@@ -344,8 +385,8 @@ JointRefinement JointSolver::Result() {
     const auto& whole = moving.prior.whole_from_parts;
     joint.photographs.push_back({whole * parts,
                                  whole * covariance * whole.transpose(),
-                                 moving.noise_px,
-                                 moving.num_matched});
+                                 moving.num_matched,
+                                 SpreadOf(joint.photographs.size())});
   }
   for (size_t number = 0; number < edges_.size(); ++number) {
     if (edges_[number].num_photographs == 0) continue;
@@ -363,6 +404,28 @@ JointRefinement JointSolver::Result() {
 
 }  // namespace
 
+void JointOptions::Check(const std::string& path) const {
+  CheckAbove(common_offset_sigmas, 0, path + "common_offset_sigmas");
+  CheckAbove(common_turn_sigmas, 0, path + "common_turn_sigmas");
+  CheckAbove(widest_offset_sigmas, 0, path + "widest_offset_sigmas");
+  CheckAbove(ground_level_sigmas, 0, path + "ground_level_sigmas");
+  own.Check(path + "own.");
+  CheckAbove(own_degrees_of_freedom, 0, path + "own_degrees_of_freedom");
+  CheckAbove(least_own_offset_sigmas, 0, path + "least_own_offset_sigmas");
+  CheckAtLeast(most_own_offset_sigmas, least_own_offset_sigmas, path + "most_own_offset_sigmas");
+  CheckAbove(least_shared_offset_sigmas, 0, path + "least_shared_offset_sigmas");
+  CheckAtLeast(
+      most_shared_offset_sigmas, least_shared_offset_sigmas, path + "most_shared_offset_sigmas");
+  CheckFromTo(own_k1_share, 1e-9, 1, path + "own_k1_share");
+  CheckFromTo(own_view_angle_share, 1e-9, 1, path + "own_view_angle_share");
+  CheckFromTo(own_aspect_share, 1e-9, 1, path + "own_aspect_share");
+  CheckFromTo(num_rounds, 1, 1000, path + "num_rounds");
+  matching.Check(path + "matching.");
+  CheckAtLeast(start_range_px, matching.final_range_px, path + "start_range_px");
+  CheckFromTo(shrink, 0.01, 0.99, path + "shrink");
+  CheckFromTo(min_noise_px, 1e-6, matching.final_range_px / 2, path + "min_noise_px");
+}
+
 JointRefinement RefineTogether(const EdgeModel& edge_model,
                                const std::vector<AlignedPhotograph>& photographs,
                                const std::vector<int>& lenses,
@@ -371,8 +434,7 @@ JointRefinement RefineTogether(const EdgeModel& edge_model,
   JointSolver solver(edge_model, photographs, lenses, options);
   for (int round = 0; round < options.num_rounds; ++round) {
     if (round + 1 == options.num_rounds) solver.EstimateSharedOffset();
-    solver.Match(std::max(options.matching.final_range_px,
-                          options.start_range_px * std::pow(options.shrink, round)));
+    solver.Match(std::pow(options.shrink, round));
     solver.Solve();
   }
   return solver.Result();

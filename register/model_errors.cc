@@ -3,6 +3,7 @@
 #include "register/model_errors.h"
 
 #include "scene/face_number.h"
+#include "scene/check_option.h"
 
 #include <algorithm>
 
@@ -16,11 +17,17 @@ std::string NameOfFace(const PolygonModel& model, int face) {
 
 }  // namespace
 
+void ModelErrorOptions::Check(const std::string& path) const {
+  CheckFromTo(min_photographs, 1, 1000000, path + "min_photographs");
+  CheckAtLeast(min_sigmas, 0, path + "min_sigmas");
+  CheckAtLeast(min_offset_sigmas, 0, path + "min_offset_sigmas");
+}
+
 std::vector<ModelError> FindModelErrors(const EdgeModel& edge_model,
                                         const std::vector<EdgeDisplacement>& displacements,
                                         const ModelErrorOptions& options) {
   const PolygonModel& model = edge_model.model;
-  const double min_offset = options.min_offset_m / MetresPerUnit(model.unit);
+  const double min_offset = options.min_offset_sigmas * edge_model.sigma;
   std::vector<ModelError> errors;
   for (const EdgeDisplacement& found : displacements) {
     const Eigen::Vector3d offset = (found.start_in_world + found.end_in_world) / 2;

@@ -6,16 +6,20 @@
 #include "register/joint_refinement.h"
 #include "scene/registration.h"
 
+#include <string>
 #include <vector>
 
 namespace groundglass {
 
 struct ModelErrorOptions {
   // A line is reported if at least this many photographs show it, and it was found this far away,
-  // in standard deviations and in metres.
+  // in standard deviations of its displacement and in sigmas of the model (0.03 m for a building).
   int min_photographs = 3;
   double min_sigmas = 4;
-  double min_offset_m = 0.04;
+  double min_offset_sigmas = 0.04 / 0.03;
+
+  // Throws Error naming the first field out of range, behind `path`.
+  void Check(const std::string& path = "model error options: ") const;
 };
 
 // The lines that are off in all photographs that show them, the farthest first.

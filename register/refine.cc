@@ -7,6 +7,7 @@
 #include "register/shared_bias.h"
 #include "register/standard_normal_cost.h"
 #include "register/weighted_median.h"
+#include "scene/check_option.h"
 
 #include <ceres/ceres.h>
 
@@ -27,7 +28,7 @@ std::vector<AlignedSample> AlignSamples(const std::vector<EdgeSample>& samples,
                                         const EdgeEvidence& evidence,
                                         const CameraPrior& prior,
                                         const ParameterProjection& projection,
-                                        double units_per_metre,
+                                        double model_sigma,
                                         const Annealing& annealing,
                                         const RefineOptions& options) {
   std::vector<AlignedSample> aligned;
@@ -42,35 +43,47 @@ std::vector<AlignedSample> AlignSamples(const std::vector<EdgeSample>& samples,
     const SoftMatch match =
         MatchCandidates(found, 0, found.range_px, annealing.noise_px, options.matching);
     if (match.precision > 0) {
-      aligned.push_back(MakeAlignedSample(found, match, units_per_metre, options.bias));
+      aligned.push_back(MakeAlignedSample(found, match, model_sigma, options.bias));
     }
   }
   return aligned;
 }
 
-// Spread of the residuals of the likely matches, px: weighted median of their absolute values.
-double EstimateNoise(const std::vector<AlignedSample>& aligned,
-                     const CameraPrior& prior,
-                     const CameraParameters& whitened) {
+// Spread of the residuals of the likely matches, by the precision that each was given; nothing if
+// none can be seen.
+std::optional<ResidualSpread> SpreadOf(const std::vector<AlignedSample>& aligned,
+                                       const CameraPrior& prior,
+                                       const CameraParameters& whitened) {
   const ParameterProjection projection = prior.ProjectionAt(whitened);
   std::vector<WeightedValue> residuals;
   for (const AlignedSample& sample : aligned) {
     const auto projected = projection.Project(sample.point_in_world);
     if (!projected) continue;
     residuals.push_back(
-        {std::abs(sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px),
+        {sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px,
          sample.precision});
   }
-  return 1.4826 * WeightedMedian(std::move(residuals), 1);
+  if (residuals.empty()) return std::nullopt;
+  return MeasureSpread(std::move(residuals));
 }
 
-// One robust step: correspondences held, Ceres solves for the whitened parameters.
-void Solve(const std::vector<AlignedSample>& aligned,
+// One robust step.
+struct Step {
+  bool has_solution = false;
+  CameraParameters whitened = CameraParameters::Zero();  // the start, if there is no solution
+  std::optional<CameraCovariance> covariance;            // where asked for, and computable
+};
+
+// Correspondences held, Ceres solves for the whitened parameters.
+Step Solve(const std::vector<AlignedSample>& aligned,
            const std::vector<ControlPoint>& points,
            const CameraPrior& prior,
            int max_iterations,
-           CameraParameters& whitened,
-           CameraCovariance* covariance) {
+           const CameraParameters& start,
+           bool with_covariance) {
+  Step step;
+  step.whitened = start;
+  CameraParameters& whitened = step.whitened;
   ceres::Problem::Options problem_options;
   problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   EdgeAlignmentCost alignment(aligned, prior);
@@ -88,7 +101,9 @@ void Solve(const std::vector<AlignedSample>& aligned,
   options.function_tolerance = 1e-8;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  if (!covariance) return;
+  step.has_solution = summary.IsSolutionUsable() && whitened.allFinite();
+  if (!step.has_solution) whitened = start;
+  if (!with_covariance || !step.has_solution) return step;
   ceres::Covariance::Options covariance_options;
   covariance_options.algorithm_type = ceres::DENSE_SVD;
   ceres::Covariance estimate(covariance_options);
@@ -97,11 +112,21 @@ void Solve(const std::vector<AlignedSample>& aligned,
   if (estimate.Compute(blocks, &problem)) {
     Eigen::Matrix<double, kNumCameraParameters, kNumCameraParameters, Eigen::RowMajor> rows;
     estimate.GetCovarianceBlock(block, block, rows.data());
-    *covariance = rows;
+    if (rows.allFinite()) step.covariance = rows;
   }
+  return step;
 }
 
 }  // namespace
+
+void RefineOptions::Check(const std::string& path) const {
+  CheckFromTo(start_sigmas, 0, 10, path + "start_sigmas");
+  CheckFromTo(shrink, 0.01, 0.99, path + "shrink");
+  CheckFromTo(spacing_px, 0.1, 1000, path + "spacing_px");
+  matching.Check(path + "matching.");
+  bias.Check(path + "bias.");
+  CheckFromTo(min_noise_px, 1e-6, matching.final_range_px / 2, path + "min_noise_px");
+}
 
 Refinement RefineFrom(const CameraParameters& start,
                       const EdgeModel& edge_model,
@@ -111,7 +136,6 @@ Refinement RefineFrom(const CameraParameters& start,
                       const std::vector<ControlPoint>& points) {
   // Steps at the final range: the mixture settles in a few.
   constexpr int kFinalSteps = 3;
-  const double units_per_metre = 1 / MetresPerUnit(edge_model.model.unit);
 
   Refinement refinement;
   refinement.whitened = start;
@@ -133,42 +157,55 @@ Refinement RefineFrom(const CameraParameters& start,
 
   Annealing annealing{options.start_sigmas, 1};
   std::vector<AlignedSample> aligned;
-  const auto match_and_solve = [&](int max_iterations, CameraCovariance* covariance) {
+  Step step;
+  const auto match_and_solve = [&](int max_iterations, bool with_covariance) {
     aligned = AlignSamples(refinement.samples,
                            evidence,
                            prior,
                            prior.ProjectionAt(refinement.whitened),
-                           units_per_metre,
+                           edge_model.sigma,
                            annealing,
                            options);
     if (aligned.size() < 8) return false;
-    Solve(aligned, points, prior, max_iterations, refinement.whitened, covariance);
+    step = Solve(aligned, points, prior, max_iterations, refinement.whitened, with_covariance);
+    refinement.whitened = step.whitened;
     return true;
   };
 
   while (3 * annealing.range_sigmas * widest_prior_px > options.matching.final_range_px) {
-    if (!match_and_solve(3, nullptr)) return refinement;
+    if (!match_and_solve(3, false)) return refinement;
     annealing.range_sigmas *= options.shrink;
   }
   // What is visible may have changed on the way.
   sample_edges();
   annealing.range_sigmas = 0;
   CameraParameters before = refinement.whitened;
-  for (int step = 0; step < kFinalSteps; ++step) {
+  for (int number = 1; number <= kFinalSteps; ++number) {
     before = refinement.whitened;
-    const bool is_last = step + 1 == kFinalSteps;
-    if (!match_and_solve(5, is_last ? &refinement.covariance : nullptr)) return refinement;
-    annealing.noise_px = std::clamp(EstimateNoise(aligned, prior, refinement.whitened),
+    if (!match_and_solve(5, number == kFinalSteps)) return refinement;
+    refinement.spread = SpreadOf(aligned, prior, refinement.whitened);
+    annealing.noise_px = std::clamp(refinement.spread ? refinement.spread->robust_sigma_px : 1,
                                     options.min_noise_px,
                                     options.matching.final_range_px / 2);
   }
-  refinement.covariance +=
-      SharedBiasCovariance(aligned, prior, refinement.whitened, refinement.covariance);
   refinement.noise_px = annealing.noise_px;
   refinement.num_matched = static_cast<int>(aligned.size());
+  if (!step.has_solution) {
+    refinement.outcome = Refinement::Outcome::kNoSolution;
+    return refinement;
+  }
+  if (!step.covariance) {
+    refinement.outcome = Refinement::Outcome::kNoCovariance;
+    return refinement;
+  }
+  refinement.covariance =
+      *step.covariance +
+      SharedBiasCovariance(aligned, prior, refinement.whitened, *step.covariance);
   // Between the last two steps a settled solution moves by less than its own uncertainty.
-  refinement.has_converged =
+  const bool is_settled =
       (refinement.whitened - before).squaredNorm() < 0.25 * refinement.covariance.trace() + 1e-6;
+  refinement.outcome =
+      is_settled ? Refinement::Outcome::kConverged : Refinement::Outcome::kNotSettled;
   return refinement;
 }
 

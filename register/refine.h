@@ -8,7 +8,10 @@
 #include "register/edge_evidence.h"
 #include "register/edge_matches.h"
 #include "register/edge_samples.h"
+#include "register/residual_spread.h"
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace groundglass {
@@ -24,17 +27,31 @@ struct RefineOptions {
   EdgeBias bias;
   // The least noise of an edge's position that is believed, px.
   double min_noise_px = 0.3;
+
+  // Throws Error naming the first field out of range, behind `path`.
+  void Check(const std::string& path = "refine options: ") const;
 };
 
 // What refinement found from one start.
 struct Refinement {
+  // How far it came.
+  enum class Outcome {
+    kConverged,
+    kNotSettled,    // the last steps still moved it
+    kNoCovariance,  // a camera, but how certain it is could not be computed
+    kNoSolution,    // the solver found none in the last step
+    kTooFewEdges,   // hardly a sample was matched
+  };
+  Outcome outcome = Outcome::kTooFewEdges;
   CameraParameters whitened = CameraParameters::Zero();
-  // Of the whitened parameters, with model bias and residual spread included.
+  // Of the whitened parameters, with model bias and residual spread included. Without a covariance
+  // (kNoCovariance and below) it is the prior's.
   CameraCovariance covariance = CameraCovariance::Identity();
-  std::vector<EdgeSample> samples;  // as visible from the refined camera
-  int num_matched = 0;              // samples with a match
-  double noise_px = 0;              // spread of the matched residuals
-  bool has_converged = false;
+  std::vector<EdgeSample> samples;       // as visible from the refined camera
+  int num_matched = 0;                   // samples with a match
+  std::optional<ResidualSpread> spread;  // of the matched residuals, if there are any
+  // The spread as the solver takes it, within the bounds that are believed.
+  double noise_px = 1;
 };
 
 // Aligns the model's edges with the photograph's, from a start in whitened parameters: edge

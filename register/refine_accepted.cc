@@ -20,6 +20,22 @@ LensKey LensKeyOf(const Registration& registration) {
   return {"", registration.width_px, registration.height_px, tag.view_angle_deg, tag.aspect};
 }
 
+// What speaks for the camera that the photographs found together. It is scored as the photograph's
+// own solution was, by what that one saw; the rival's score stays, its own best.
+Evidence EvidenceFor(const CameraParameters& whitened,
+                     const AlignedPhotograph& photograph,
+                     const ScoreOptions& options) {
+  Evidence evidence;
+  evidence.score =
+      ScoreFromSamples(photograph.score_samples, photograph.prior.ProjectionAt(whitened), options);
+  evidence.rival_distance_px = photograph.rival_distance_px;
+  if (photograph.rival_nats) {
+    evidence.margin_nats =
+        evidence.score.nats - 0.5 * whitened.squaredNorm() - *photograph.rival_nats;
+  }
+  return evidence;
+}
+
 }  // namespace
 
 std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
@@ -52,9 +68,10 @@ std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
     for (const CandidateSample& found : photograph.found) {
       points_in_world.push_back(found.sample.point_in_world);
     }
-    WriteSolution(
-        joint.photographs[i], photograph.prior, edge_model.model, points_in_world, registration);
-    JudgeChange(joint.photographs[i].whitened, photograph.prior, options, registration);
+    const JointSolution& solution = joint.photographs[i];
+    WriteSolution(solution, photograph.prior, edge_model.model, points_in_world, registration);
+    JudgeEvidence(EvidenceFor(solution.whitened, photograph, options.score), options, registration);
+    JudgeChange(solution.whitened, photograph.prior, options, registration);
   }
   return joint.displacements;
 }

@@ -6,7 +6,8 @@
 #include "register/pointed_prior.h"
 #include "register/verdict.h"
 #include "register/write_solution.h"
-#include "scene/error.h"
+#include "scene/check_option.h"
+#include "scene/reduce.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -16,12 +17,13 @@
 namespace groundglass {
 namespace {
 
-Image8 Resized(const Image8& image, int width, int height, int interpolation) {
-  if (image.Empty()) return image;
+// A mask at another size: nearest neighbours.
+Image8 ResizedMask(const Image8& mask, int width, int height) {
+  if (mask.Empty()) return mask;
   Image8 resized(width, height, 1);
-  const cv::Mat from(image.height, image.width, CV_8UC1, const_cast<uint8_t*>(image.values.data()));
+  const cv::Mat from(mask.height, mask.width, CV_8UC1, const_cast<uint8_t*>(mask.values.data()));
   cv::Mat to(height, width, CV_8UC1, resized.values.data());
-  cv::resize(from, to, to.size(), 0, 0, interpolation);
+  cv::resize(from, to, to.size(), 0, 0, cv::INTER_NEAREST);
   return resized;
 }
 
@@ -42,12 +44,30 @@ std::vector<ControlPoint> PointsIn(const std::string& photograph,
 }  // namespace
 
 void RegisterOptions::Check() const {
+  const std::string path = "registration options: ";
   prior.Check();
-  overrule.Check();
-  if (!(max_width_px >= 64)) throw Error("option max-width: must be at least 64 px");
-  if (!(refine.shrink > 0 && refine.shrink < 1)) {
-    throw Error("option shrink: must lie between 0 and 1");
+  hypotheses.Check(path + "hypotheses.");
+  refine.Check(path + "refine.");
+  score.Check(path + "score.");
+  joint.Check(path + "joint.");
+  model_errors.Check(path + "model_errors.");
+  CheckFromTo(max_width_px, 64, 100000, path + "max_width_px");
+  CheckAtLeast(rival_distance_px, 0, path + "rival_distance_px");
+  CheckAtLeast(min_margin_per_vote, 0, path + "min_margin_per_vote");
+  CheckAtLeast(min_margin_nats, 0, path + "min_margin_nats");
+  CheckAtLeast(min_nats_per_vote, 0, path + "min_nats_per_vote");
+  CheckAbove(max_prior_sigmas, 0, path + "max_prior_sigmas");
+  CheckAbove(max_prior_chi_squared, 0, path + "max_prior_chi_squared");
+  CheckAbove(max_vertex_sigma_px, 0, path + "max_vertex_sigma_px");
+  for (const ControlPoint& point : control_points) {
+    const std::string of = path + "control_points of " + point.photograph + ": ";
+    // A sum is finite if its terms are.
+    CheckFinite(point.image_px.sum(), of + "image_px");
+    CheckFinite(point.point_in_world.sum(), of + "point_in_world");
+    CheckAbove(point.sigma_px, 0, of + "sigma_px");
   }
+  CheckAbove(max_control_point_sigmas, 0, path + "max_control_point_sigmas");
+  overrule.Check();
 }
 
 PhotographAlignment AlignPhotograph(const std::string& name,
@@ -71,12 +91,15 @@ PhotographAlignment AlignPhotograph(const std::string& name,
   const int width_px = static_cast<int>(std::lround(grey8.width * scale));
   const int height_px = static_cast<int>(std::lround(grey8.height * scale));
   const bool is_reduced = width_px != grey8.width;
-  const EdgeEvidence evidence(
-      is_reduced ? Resized(grey8, width_px, height_px, cv::INTER_AREA) : grey8,
-      is_reduced ? Resized(ignore, width_px, height_px, cv::INTER_NEAREST) : ignore);
+  const EdgeEvidence evidence(is_reduced ? ReducedInLight(grey8, width_px, height_px) : grey8,
+                              is_reduced ? ResizedMask(ignore, width_px, height_px) : ignore);
 
-  const CameraPrior prior =
-      MakeCameraPrior(measured, width_px, height_px, edge_model.model.unit, lens, options.prior);
+  const CameraPrior prior = MakeCameraPrior(measured,
+                                            width_px,
+                                            height_px,
+                                            edge_model.model.unit,
+                                            lens,
+                                            PriorSuitedTo(edge_model.model, options.prior));
   registration.prior_sigmas = prior.sigmas;
   registration.sigmas = prior.sigmas;
   const std::vector<ControlPoint> points = PointsIn(name, options.control_points, scale);
@@ -91,29 +114,37 @@ PhotographAlignment AlignPhotograph(const std::string& name,
   const Refinement& refined = best.refinement;
   const Rival rival = FindRival(solutions, prior, options);
 
-  registration.score_nats = best.score.nats;
-  registration.margin_nats =
-      rival.solution ? best.TotalScore() - rival.solution->TotalScore() : 1e6;
-  WriteSolution({refined.whitened, refined.covariance, refined.noise_px, refined.num_matched},
+  std::optional<double> rival_nats;
+  if (rival.solution) rival_nats = rival.solution->TotalScore();
+  Evidence support{best.score, {}, rival.distance_px / scale};
+  if (rival_nats) support.margin_nats = best.TotalScore() - *rival_nats;
+  WriteSolution({refined.whitened, refined.covariance, refined.num_matched, refined.spread},
                 prior,
                 edge_model.model,
                 PointsOf(refined.samples),
                 registration);
-  JudgeFit(best, rival.solution, rival.distance_px / scale, options, registration);
+  registration.verdict = Verdict::kAccepted;
+  JudgeEvidence(support, options, registration);
+  JudgeOutcome(refined.outcome, registration);
   JudgeChange(refined.whitened, prior, options, registration);
   const ParameterProjection projection = prior.ProjectionAt(refined.whitened);
   JudgeControlPoints(points, projection, scale, options.max_control_point_sigmas, registration);
   if (registration.verdict == Verdict::kAccepted && points.empty()) {
-    alignment.aligned = {prior,
-                         FindCandidateSamples(refined.samples,
-                                              evidence,
-                                              prior,
-                                              projection,
-                                              0,
-                                              1.5 * options.joint.start_range_px,
-                                              options.joint.matching),
-                         refined.whitened,
-                         refined.noise_px};
+    alignment.aligned = {
+        prior,
+        FindCandidateSamples(refined.samples,
+                             evidence,
+                             prior,
+                             projection,
+                             0,
+                             1.5 * options.joint.start_range_px,
+                             options.joint.matching),
+        refined.whitened,
+        refined.noise_px,
+        FindScoreSamples(
+            refined.samples, projection, evidence, options.joint.start_range_px, options.score),
+        rival_nats,
+        rival.distance_px / scale};
   }
   return alignment;
 }

@@ -31,7 +31,8 @@ struct RegisterOptions {
   // Each photograph by itself; else those that are accepted are refined together.
   bool independent = false;
 
-  // Photographs wider than this are registered at this width: edges of buildings are no sharper.
+  // Photographs wider than this are registered at this width, their light averaged: edges of
+  // buildings are no sharper.
   int max_width_px = 1600;
   // A solution this far from the best one is another solution, px at a width of 1200.
   double rival_distance_px = 2.5;

@@ -37,37 +37,56 @@ void LowerTo(Verdict verdict, const std::string& reason, Registration& registrat
 
 }  // namespace
 
-void JudgeFit(const Solution& best,
-              const Solution* rival,
-              double rival_distance_px,
-              const RegisterOptions& options,
-              Registration& registration) {
-  registration.verdict = Verdict::kAccepted;
-  if (best.score.nats <= 0) {
+void JudgeEvidence(const Evidence& evidence,
+                   const RegisterOptions& options,
+                   Registration& registration) {
+  const AlignmentScore& score = evidence.score;
+  registration.score_nats = score.nats;
+  registration.margin_nats = evidence.margin_nats;
+  if (score.nats <= 0) {
     LowerTo(Verdict::kRejected,
             Format("the model's edges meet the photograph's no better than by chance "
                    "(score %.0f nats)",
-                   best.score.nats),
+                   score.nats),
             registration);
   }
-  const double nats_per_vote = best.score.nats / std::max(1.0, best.score.votes);
-  if (best.score.nats > 0 && nats_per_vote < options.min_nats_per_vote) {
+  const double nats_per_vote = score.nats / std::max(1.0, score.votes);
+  if (score.nats > 0 && nats_per_vote < options.min_nats_per_vote) {
     LowerTo(
         Verdict::kReview,
         Format("few of the model's edges are in the photograph (%.2f nats a vote)", nats_per_vote),
         registration);
   }
   const double min_margin_nats =
-      std::max(options.min_margin_nats, options.min_margin_per_vote * best.score.votes);
-  if (rival && registration.margin_nats < min_margin_nats) {
+      std::max(options.min_margin_nats, options.min_margin_per_vote * score.votes);
+  if (evidence.margin_nats && *evidence.margin_nats < min_margin_nats) {
     LowerTo(Verdict::kReview,
             Format("a rival %.1f px away fits almost as well (margin %.0f nats)",
-                   rival_distance_px,
-                   registration.margin_nats),
+                   evidence.rival_distance_px,
+                   *evidence.margin_nats),
             registration);
   }
-  if (!best.refinement.has_converged) {
-    LowerTo(Verdict::kReview, "refinement did not settle", registration);
+}
+
+void JudgeOutcome(Refinement::Outcome outcome, Registration& registration) {
+  switch (outcome) {
+    case Refinement::Outcome::kConverged:
+      return;
+    case Refinement::Outcome::kNotSettled:
+      return LowerTo(Verdict::kReview, "refinement did not settle", registration);
+    case Refinement::Outcome::kNoCovariance:
+      return LowerTo(Verdict::kReview,
+                     "how certain the camera is could not be computed; the uncertainty that is "
+                     "given is the tag's own",
+                     registration);
+    case Refinement::Outcome::kNoSolution:
+      return LowerTo(
+          Verdict::kRejected, "the solver found no camera that can be used", registration);
+    case Refinement::Outcome::kTooFewEdges:
+      return LowerTo(Verdict::kReview,
+                     "too few of the model's edges are found in the photograph; the uncertainty "
+                     "that is given is the tag's own",
+                     registration);
   }
 }
 

@@ -7,15 +7,28 @@
 #include "register/register_photograph.h"
 #include "scene/registration.h"
 
+#include <optional>
+
 namespace groundglass {
 
-// Writes verdict and reasons into a registration whose figures are filled in, except what
-// JudgeChange writes. rival: the best solution elsewhere, if any, and how far away it lies.
-void JudgeFit(const Solution& best,
-              const Solution* rival,
-              double rival_distance_px,
-              const RegisterOptions& options,
-              Registration& registration);
+// What speaks for a camera: its score, and how much better it is than the best solution elsewhere,
+// if there is one, and how far away that lies.
+struct Evidence {
+  AlignmentScore score;
+  std::optional<double> margin_nats;
+  double rival_distance_px = 0;  // of the photograph
+};
+
+// These lower a registration's verdict, which starts as `accepted`, with the reason, and never
+// raise it.
+
+// Writes score and margin, and judges them.
+void JudgeEvidence(const Evidence& evidence,
+                   const RegisterOptions& options,
+                   Registration& registration);
+
+// Judges how far the refinement came.
+void JudgeOutcome(Refinement::Outcome outcome, Registration& registration);
 
 // Adds what the change from prior to solution says: the undetermined parameters, and `review` where
 // the change is larger than the tag's sigmas allow. whitened: the solution.

@@ -57,7 +57,12 @@ void WriteSolution(const JointSolution& solution,
   registration.covariance = prior.root * solution.covariance * prior.root.transpose();
   registration.sigmas = registration.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   registration.num_samples = solution.num_matched;
-  registration.rms_px = solution.noise_px * to_photograph;
+  registration.rms_px.reset();
+  registration.robust_sigma_px.reset();
+  if (solution.spread) {
+    registration.rms_px = solution.spread->rms_px * to_photograph;
+    registration.robust_sigma_px = solution.spread->robust_sigma_px * to_photograph;
+  }
   registration.moved_px =
       to_photograph *
       MeanDisplacementPx(points_in_world, prior.ProjectionAt(CameraParameters::Zero()), projection);

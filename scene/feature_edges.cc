@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "scene/feature_edges.h"
 
+#include "scene/check_option.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -223,12 +225,17 @@ bool ClipToFrame(const NormalisedFrame& frame,
 
 }  // namespace
 
+void FeatureEdgeOptions::Check() const {
+  CheckFromTo(min_crease_deg, 0, 180, "feature edge options: min_crease_deg");
+}
+
 std::vector<VisibleSpan> FindVisibleSpans(const PolygonModel& model,
                                           const std::vector<ModelEdge>& edges,
                                           const Visibility& visibility,
                                           const Camera& camera,
                                           double margin_px,
                                           const FeatureEdgeOptions& options) {
+  options.Check();
   // Visibility is asked about every this many pixels; a change in between is found by bisection.
   constexpr double kStepPx = 6;
   constexpr int kBisections = 6;

@@ -34,6 +34,8 @@ struct FeatureEdgeOptions {
   double min_crease_deg = 10;
   // Borders between coplanar faces count as lines.
   bool coplanar_borders = true;
+
+  void Check() const;  // throws Error naming the first field out of range
 };
 
 // All lines that some view may show: shallow creases among them, since they may be silhouettes.

@@ -103,6 +103,13 @@ class GltfReader {
                                           origin.Get(3).GetNumberAsDouble()};
       }
     }
+    if (notes.IsObject() && notes.Has("groundglass_sigma")) {
+      const tinygltf::Value& sigma = notes.Get("groundglass_sigma");
+      if (sigma.IsNumber() && sigma.GetNumberAsDouble() > 0) {
+        model.sigma = sigma.GetNumberAsDouble();
+      }
+    }
+    if (unit_ && model.sigma) *model.sigma *= MetresPerUnit(model.unit) / MetresPerUnit(*unit_);
     if (unit_) model.unit = *unit_;
   }
 

@@ -72,6 +72,7 @@ class GlbWriter {
     tinygltf::Value::Object notes;
     const PolygonModel& model = textured_.model;
     notes["groundglass_unit"] = tinygltf::Value(UnitName(model.unit));
+    if (model.sigma) notes["groundglass_sigma"] = tinygltf::Value(*model.sigma);
     if (model.georeference) {
       const Georeference& place = *model.georeference;
       notes["groundglass_origin"] =

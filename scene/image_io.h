@@ -36,6 +36,8 @@ Image16 ReadLabels(const std::filesystem::path& file);
 struct ImageWriteOptions {
   int jpeg_quality = 95;  // 4:4:4
   int bits = 8;           // 8 or 16 for PNG and TIFF; EXR is always half float
+
+  void Check() const;  // throws Error naming the first field out of range
 };
 
 // The extension chooses the format; written beside its place and renamed into it. Radiance is

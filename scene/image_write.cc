@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "scene/atomic_file.h"
+#include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/srgb.h"
@@ -69,9 +70,15 @@ bool IsExr(const std::filesystem::path& file) {
 
 }  // namespace
 
+void ImageWriteOptions::Check() const {
+  CheckFromTo(jpeg_quality, 1, 100, "image options: jpeg_quality");
+  if (bits != 8 && bits != 16) throw Error("image options: bits must be 8 or 16");
+}
+
 void WriteRadiance(const std::filesystem::path& file,
                    const ImageF& radiance,
                    const ImageWriteOptions& options) {
+  options.Check();
   CheckSize(file, radiance.width, radiance.height);
   const OIIO::TypeDesc type = IsExr(file) ? OIIO::TypeHalf : IntegerType(file, options.bits);
   const OIIO::ImageSpec spec(radiance.width, radiance.height, radiance.channels, type);
@@ -89,6 +96,7 @@ void WriteRadiance(const std::filesystem::path& file,
 void WriteSrgb8(const std::filesystem::path& file,
                 const Image8& srgb8,
                 const ImageWriteOptions& options) {
+  options.Check();
   CheckSize(file, srgb8.width, srgb8.height);
   if (IsExr(file)) {
     ImageF radiance(srgb8.width, srgb8.height, srgb8.channels);
@@ -136,6 +144,7 @@ void WriteLabels(const std::filesystem::path& file, const Image16& labels) {
 std::vector<uint8_t> EncodeImage(const Image8& srgb8,
                                  const std::string& extension,
                                  const ImageWriteOptions& options) {
+  options.Check();
   const std::filesystem::path name = "image" + extension;
   CheckSize(name, srgb8.width, srgb8.height);
   std::vector<unsigned char> bytes;

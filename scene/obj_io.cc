@@ -5,6 +5,7 @@
 #include "scene/continued_lines.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
+#include "scene/model_sigma.h"
 #include "scene/text.h"
 #include "scene/view_io.h"
 
@@ -30,6 +31,8 @@ class ObjReader {
       }
     }
     ResolveIndices();
+    // It is in the model's unit, which may be told further down.
+    if (sigma_) ReadSigmaComment(*sigma_, file_, sigma_line_, reading_.model);
     ApplyFaceNumbers(face_numbers_, reading_.model);
     return std::move(reading_);
   }
@@ -51,6 +54,9 @@ class ObjReader {
       }
     } else if (const auto numbers = field("face numbers:")) {
       face_numbers_ = std::string(*numbers);
+    } else if (const auto sigma = field("sigma:")) {
+      sigma_ = std::string(*sigma);
+      sigma_line_ = lines_.number();
     }
   }
 
@@ -148,6 +154,8 @@ class ObjReader {
   std::string name_;
   std::string material_;
   std::string face_numbers_;
+  std::optional<std::string> sigma_;
+  int sigma_line_ = 0;
   ObjReading reading_;
 };
 
@@ -164,6 +172,7 @@ std::string ObjGroupName(std::string name) {
 
 std::string ObjModelComments(const PolygonModel& model) {
   std::string text = std::string("# unit: ") + UnitName(model.unit) + "\n";
+  if (model.sigma) text += "# sigma: " + FormatNumber(*model.sigma) + "\n";
   const std::string numbers = FormatFaceNumbers(model);
   if (!numbers.empty()) text += "# face numbers: " + numbers + "\n";
   return text;

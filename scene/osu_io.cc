@@ -6,6 +6,7 @@
 #include "scene/face_number.h"
 #include "scene/frames.h"
 #include "scene/mend_faces.h"
+#include "scene/model_sigma.h"
 #include "scene/text.h"
 #include "scene/view_io.h"
 
@@ -40,7 +41,9 @@ std::vector<double> FieldNumbers(const std::filesystem::path& name,
   throw Error(name, line, "expected '% " + expected + "'");
 }
 
-// What the comments say of the whole model: its unit, and where on Earth it stands.
+constexpr std::string_view kSigmaKey = "sigma:";
+
+// What the comments say of the whole model: its unit, its tolerance, and where on Earth it stands.
 void ReadModelComments(const std::filesystem::path& name,
                        const std::vector<TextLine>& lines,
                        PolygonModel& model) {
@@ -75,6 +78,8 @@ void ReadModelComments(const std::filesystem::path& name,
           FieldNumbers(name, line.number, *north, 1, "north: DEGREES");
       // North alone places nothing on Earth.
       if (model.georeference) model.georeference->north_deg = numbers[0];
+    } else if (CommentField(line, kSigmaKey)) {
+      ReadSigmaComment(line.comment.substr(kSigmaKey.size()), name, line.number, model);
     }
   }
 }
@@ -287,6 +292,7 @@ std::string FormatOsu(const PolygonModel& model) {
       "% LEFT-handed: x east, y south, z up. Faces list point numbers, from 1, counterclockwise\n"
       "% as seen from the front.\n";
   text += std::string("% unit: ") + UnitName(model.unit) + "\n";
+  if (model.sigma) text += "% sigma: " + FormatNumber(*model.sigma) + "\n";
   if (model.georeference) {
     const Georeference& place = *model.georeference;
     text += "% origin: " + FormatNumber(place.latitude_deg) + " " +

@@ -75,6 +75,17 @@ CameraParameters ParametersFromJson(const Json& json) {
   return parameters;
 }
 
+// null: there is no such number.
+Json JsonFromOptional(const std::optional<double>& number) {
+  return number ? Json(*number) : Json(nullptr);
+}
+
+std::optional<double> OptionalFromJson(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end() || found->is_null()) return std::nullopt;
+  return found->get<double>();
+}
+
 Verdict VerdictFromName(const std::string& name) {
   for (const Verdict verdict : {Verdict::kAccepted, Verdict::kReview, Verdict::kRejected}) {
     if (VerdictName(verdict) == name) return verdict;
@@ -104,9 +115,10 @@ Json JsonFromRegistration(const Registration& registration) {
   }
   json["undetermined"] = registration.undetermined;
   json["num_samples"] = registration.num_samples;
-  json["rms_px"] = registration.rms_px;
+  json["rms_px"] = JsonFromOptional(registration.rms_px);
+  json["robust_sigma_px"] = JsonFromOptional(registration.robust_sigma_px);
   json["score_nats"] = registration.score_nats;
-  json["margin_nats"] = registration.margin_nats;
+  json["margin_nats"] = JsonFromOptional(registration.margin_nats);
   json["moved_px"] = registration.moved_px;
   json["vertex_sigma_px"] = registration.vertex_sigma_px;
   return json;
@@ -140,9 +152,17 @@ Registration RegistrationFromJson(const Json& json) {
   }
   registration.undetermined = json.at("undetermined").get<std::vector<std::string>>();
   registration.num_samples = json.at("num_samples").get<int>();
-  registration.rms_px = json.at("rms_px").get<double>();
+  if (json.contains("robust_sigma_px")) {
+    registration.rms_px = OptionalFromJson(json, "rms_px");
+    registration.robust_sigma_px = OptionalFromJson(json, "robust_sigma_px");
+  } else {
+    // Written by version 0.1, which called the robust spread rms_px.
+    registration.robust_sigma_px = OptionalFromJson(json, "rms_px");
+  }
   registration.score_nats = json.at("score_nats").get<double>();
-  registration.margin_nats = json.at("margin_nats").get<double>();
+  registration.margin_nats = OptionalFromJson(json, "margin_nats");
+  constexpr double kNoRivalOfVersion01 = 1e6;
+  if (registration.margin_nats == kNoRivalOfVersion01) registration.margin_nats.reset();
   registration.moved_px = json.at("moved_px").get<double>();
   registration.vertex_sigma_px = json.at("vertex_sigma_px").get<double>();
   return registration;

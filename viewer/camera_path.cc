@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "viewer/camera_path.h"
 
+#include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/frames.h"
 
@@ -230,14 +231,11 @@ std::vector<Camera> MakeFlight(const PolygonModel& model,
 }
 
 void OrbitOptions::Check() const {
-  if (width_px < 1 || height_px < 1)
-    throw Error("orbit options: width_px and height_px must be > 0");
-  if (!(view_angle_deg > 0 && view_angle_deg < 150)) {
-    throw Error("orbit options: view_angle_deg must be in (0, 150)");
-  }
-  if (!(height_deg > -89 && height_deg < 89)) {
-    throw Error("orbit options: height_deg must be in (-89, 89)");
-  }
+  CheckFromTo(width_px, 1, 65536, "orbit options: width_px");
+  CheckFromTo(height_px, 1, 65536, "orbit options: height_px");
+  CheckFromTo(view_angle_deg, 0.1, 150, "orbit options: view_angle_deg");
+  CheckFromTo(height_deg, -89, 89, "orbit options: height_deg");
+  CheckFinite(first_bearing_deg, "orbit options: first_bearing_deg");
 }
 
 std::vector<Camera> MakeOrbit(const PolygonModel& model,

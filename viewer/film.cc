@@ -3,6 +3,7 @@
 #include "viewer/film.h"
 
 #include "scene/atomic_file.h"
+#include "scene/check_option.h"
 #include "scene/error.h"
 
 #include <fcntl.h>
@@ -162,7 +163,8 @@ void FilmOptions::Check() const {
   if (!(frames_per_second > 0 && frames_per_second <= 240)) {
     throw Error("film options: frames_per_second must be in (0, 240]");
   }
-  if (quality < 0 || quality > 51) throw Error("film options: quality must be from 0 to 51");
+  CheckFromTo(quality, 0, 51, "film options: quality");
+  if (ffmpeg.empty()) throw Error("film options: ffmpeg names no program");
 }
 
 void WriteFilm(const std::filesystem::path& file,

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "viewer/renderer.h"
 
+#include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/feature_edges.h"
@@ -37,13 +38,6 @@ Colouring ChooseColouring(const RenderOptions& options, const RenderBatch& batch
   return options.anisotropy > 1 ? kTexturedAlongSight : kTexturedFaces;
 }
 
-void CheckRange(double value, double least, double most, const char* field) {
-  if (value >= least && value <= most) return;
-  throw Error("render options: " + std::string(field) + " must be from " +
-              std::to_string(static_cast<int>(least)) + " to " +
-              std::to_string(static_cast<int>(most)));
-}
-
 // Horizontal directions of the sky at the corners of clip space, for kFrameVertexShader.
 Eigen::Matrix3d WorldFromClip(const Camera& pinhole) {
   Eigen::Matrix3d cam_from_clip = Eigen::Matrix3d::Zero();
@@ -61,10 +55,14 @@ void RenderOptions::Check() const {
   if (multisamples != 1 && multisamples != 4) {
     throw Error("render options: multisamples must be 1 or 4");
   }
-  CheckRange(supersampling, 1, 4, "supersampling");
-  CheckRange(anisotropy, 1, 16, "anisotropy");
-  CheckRange(sun_bearing_deg, -360, 360, "sun_bearing_deg");
-  CheckRange(sun_height_deg, 0, 90, "sun_height_deg");
+  CheckFromTo(supersampling, 1, 4, "render options: supersampling");
+  CheckFromTo(anisotropy, 1, 16, "render options: anisotropy");
+  CheckFromTo(sun_bearing_deg, -360, 360, "render options: sun_bearing_deg");
+  CheckFromTo(sun_height_deg, 0, 90, "render options: sun_height_deg");
+}
+
+void RendererOptions::Check() const {
+  CheckFromTo(max_page_size_px, 1, 1 << 20, "renderer options: max_page_size_px");
 }
 
 struct Renderer::Impl {
@@ -95,6 +93,7 @@ struct Renderer::Impl {
 
   Impl(const TexturedModel& textured, const RendererOptions& options)
       : model(textured.model), mesh(MakeRenderMesh(textured)) {
+    options.Check();
     context->MakeCurrent();
     gl = FindGlFunctions(*context);
     for (size_t i = 0; i < kColourings.size(); ++i) {

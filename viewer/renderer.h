@@ -48,6 +48,8 @@ struct RenderOptions {
 struct RendererOptions {
   // Pages larger than this, or than OpenGL allows, are halved until they fit.
   int max_page_size_px = 16384;
+
+  void Check() const;  // throws Error naming the first field out of range
 };
 
 // A textured model made ready for drawing: triangles and mipmapped pages in an OpenGL context of

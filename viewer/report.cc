@@ -2,9 +2,11 @@
 // Part of Groundglass.
 #include "viewer/report.h"
 
+#include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/feature_edges.h"
 #include "scene/image_io.h"
+#include "scene/model_sigma.h"
 #include "scene/registration_io.h"
 #include "scene/view_io.h"
 #include "scene/visibility.h"
@@ -59,6 +61,11 @@ constexpr std::array<ParameterWords, kNumCameraParameters> kParameterWords = {{
 std::string UnitSuffix(const Scene* scene) {
   if (!scene) return " units";
   return " " + UnitName(scene->model.unit);
+}
+
+// A misfit that there may not be.
+std::string PixelsOf(const std::optional<double>& px) {
+  return px ? FormatNumber(*px, 0.1) : "\u2013";
 }
 
 std::string VerdictCell(Verdict verdict) {
@@ -174,9 +181,15 @@ class Report {
         "<p><span class=\"accepted verdict\">accepted</span>: the model\u2019s edges fit the "
         "picture, within what the field notes allow. <span class=\"review verdict\">review</span>: "
         "used, at lower weight; a person should look. <span class=\"rejected verdict\">rejected"
-        "</span>: no trustworthy fit; the field notes stand, and the photograph is not used.</p>\n"
+        "</span>: no trustworthy fit; the field notes stand, and the photograph is not used.</p>\n";
+    if (scene_) {
+      body_ += "<p>The model\u2019s edges may lie off by " +
+               EscapeHtml(DescribeModelSigma(scene_->model)) + ".</p>\n";
+    }
+    body_ +=
         "<table><thead><tr><th>Photograph</th><th>Verdict</th><th class=\"n\">Edges moved, px</th>"
-        "<th class=\"n\">Misfit left, px</th><th class=\"n\">Model known to, px</th><th "
+        "<th class=\"n\">Misfit left, px (root mean square)</th><th class=\"n\">Misfit of most "
+        "edges, px (robust)</th><th class=\"n\">Model known to, px</th><th "
         "class=\"n\">Edge points</th><th>Remarks</th></tr>"
         "</thead><tbody>\n";
     for (const Registration& registration : *registrations_) {
@@ -191,8 +204,8 @@ class Report {
                         EscapeHtml(registration.name) + "</a>") +
                TextCell(VerdictCell(registration.verdict)) +
                NumberCell(is_rejected ? "\u2013" : FormatNumber(registration.moved_px, 1)) +
-               NumberCell(registration.num_samples > 0 ? FormatNumber(registration.rms_px, 0.1)
-                                                       : "\u2013") +
+               NumberCell(PixelsOf(registration.rms_px)) +
+               NumberCell(PixelsOf(registration.robust_sigma_px)) +
                NumberCell(is_rejected ? "\u2013" : FormatNumber(registration.vertex_sigma_px, 1)) +
                NumberCell(std::to_string(registration.num_samples)) + TextCell(remarks) + "</tr>\n";
     }
@@ -328,9 +341,14 @@ class Report {
 
 }  // namespace
 
+void ReportOptions::Check() const {
+  CheckFromTo(picture_width_px, 16, 10000, "report options: picture_width_px");
+}
+
 std::string FormatReport(const fs::path& out_folder,
                          const Scene* scene,
                          const ReportOptions& options) {
+  options.Check();
   return Report(out_folder, scene, options).Format();
 }
 

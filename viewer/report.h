@@ -14,6 +14,8 @@ struct ReportOptions {
   // Width of the pictures inside the report, px. Beyond 40 photographs they are half as wide, so
   // that the file stays within what a browser opens.
   int picture_width_px = 760;
+
+  void Check() const;  // throws Error naming the first field out of range
 };
 
 // report.html: the whole story of an output folder as one file that opens without a network, for a

@@ -3,8 +3,7 @@
 #include "viewer/report_html.h"
 
 #include "scene/image_io.h"
-
-#include <opencv2/imgproc.hpp>
+#include "scene/reduce.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,12 +88,7 @@ Image8 ShrunkPicture(const Image8& srgb8, int width_px) {
   if (srgb8.width <= width_px) return srgb8;
   const int height_px = std::max(
       1, static_cast<int>(std::lround(static_cast<double>(srgb8.height) * width_px / srgb8.width)));
-  Image8 shrunk(width_px, height_px, srgb8.channels);
-  const int type = CV_MAKETYPE(CV_8U, srgb8.channels);
-  const cv::Mat from(srgb8.height, srgb8.width, type, const_cast<uint8_t*>(srgb8.values.data()));
-  cv::Mat to(height_px, width_px, type, shrunk.values.data());
-  cv::resize(from, to, to.size(), 0, 0, cv::INTER_AREA);
-  return shrunk;
+  return ReducedInLight(srgb8, width_px, height_px);
 }
 
 std::string EmbeddedPicture(const Image8& srgb8, const std::string& description) {

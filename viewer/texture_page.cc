@@ -3,8 +3,7 @@
 #include "viewer/texture_page.h"
 
 #include "scene/error.h"
-
-#include <opencv2/imgproc.hpp>
+#include "scene/reduce.h"
 
 #include <algorithm>
 
@@ -18,11 +17,7 @@ Image8 HalvedUntilItFits(const Image8& page, int max_size_px) {
     width = std::max(1, width / 2);
     height = std::max(1, height / 2);
   }
-  Image8 halved(width, height, 3);
-  const cv::Mat from(page.height, page.width, CV_8UC3, const_cast<uint8_t*>(page.values.data()));
-  cv::Mat to(height, width, CV_8UC3, halved.values.data());
-  cv::resize(from, to, to.size(), 0, 0, cv::INTER_AREA);
-  return halved;
+  return ReducedInLight(page, width, height);
 }
 
 }  // namespace

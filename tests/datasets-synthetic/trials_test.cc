@@ -79,10 +79,10 @@ TEST(TrialOptions, RefuseNoTrialsAndNoSigmas) {
   TrialOptions options;
   options.sigma_lookat = 0;
   EXPECT_THAT([&] { options.Check(); },
-              testing::ThrowsMessage<Error>("the trials' sigmas must be above 0"));
+              testing::ThrowsMessage<Error>("trial options: sigma_lookat must be above 0, not 0"));
   options.num_trials = 0;
   EXPECT_THAT([&] { options.Check(); },
-              testing::ThrowsMessage<Error>("the number of trials must be at least 1"));
+              testing::ThrowsMessage<Error>("trial options: num_trials must be 1 or more, not 0"));
 }
 
 }  // namespace

@@ -160,6 +160,32 @@ TEST(RefineTogether, WithAnExactModelCamerasStayAndTruthLiesInTheirEllipsoids) {
   }
 }
 
+// Each photograph is scored again by the camera that is written, not by the one that it found
+// alone.
+TEST(RefineAccepted, TheScoreIsThatOfTheCameraThatIsWritten) {
+  const PolygonModel plan = MakeHouse();
+  const PolygonModel built = WithAHigherShed(plan);
+  const EdgeModel edge_model(plan);
+  std::vector<PhotographAlignment> alignments = AlignAll(built, edge_model);
+  std::vector<double> alone;
+  for (const PhotographAlignment& alignment : alignments) {
+    alone.push_back(alignment.registration.score_nats);
+  }
+  RefineAccepted(edge_model, {}, alignments);
+  for (size_t i = 0; i < alignments.size(); ++i) {
+    const Registration& registration = alignments[i].registration;
+    const EdgeEvidence evidence(
+        PhotographModel(built, CameraFromTag(TrueTags()[i], kWidth, kHeight), 2, i + 1), {});
+    const AlignmentScore score = ScoreAlignment(
+        SampleVisibleEdges(edge_model, registration.CorrectedCamera(), -3, 4),
+        ParameterProjection(ParametersFromTag(registration.corrected), 0, kWidth, kHeight),
+        evidence,
+        {});
+    EXPECT_NE(registration.score_nats, alone[i]);
+    EXPECT_NEAR(registration.score_nats, score.nats, 0.03 * score.nats);
+  }
+}
+
 TEST(FindModelErrors, AnExactModelHasNone) {
   const PolygonModel model = MakeHouse();
   const EdgeModel edge_model(model);

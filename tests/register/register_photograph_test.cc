@@ -168,6 +168,42 @@ TEST(RegisterPhotograph, ATagThatLooksAwaySaysSo) {
   EXPECT_EQ(registration.reasons[0], "the measured tag sees almost nothing of the model");
 }
 
+TEST(RegisterPhotograph, AReducedPhotographGivesTheSameCamera) {
+  const PolygonModel model = MakeHouse();
+  const Errors errors = DrawErrors(0, 42);
+  const Camera truth = CameraFromTag(errors.truth, kWidth, kHeight);
+  RegisterOptions options;
+  options.max_width_px = kWidth / 2;
+  const Registration registration = RegisterPhotograph("large",
+                                                       PhotographModel(model, truth, 2, 1),
+                                                       {},
+                                                       errors.measured,
+                                                       {},
+                                                       EdgeModel(model),
+                                                       options);
+  EXPECT_EQ(registration.verdict, Verdict::kAccepted);
+  EXPECT_LT(VertexErrorPx(model, truth, registration.CorrectedCamera()), 0.6);
+}
+
+TEST(RegisterPhotograph, FiguresAreWhatTheyAreCalled) {
+  const PolygonModel model = MakeHouse();
+  const Errors errors = DrawErrors(0, 42);
+  const Camera truth = CameraFromTag(errors.truth, kWidth, kHeight);
+  const auto figures_of = [&](double noise_levels) {
+    return Register(model, PhotographModel(model, truth, noise_levels, 1), errors.measured);
+  };
+  const Registration clean = figures_of(0.5);
+  const Registration noisy = figures_of(12);
+  ASSERT_TRUE(clean.rms_px && clean.robust_sigma_px && noisy.rms_px && noisy.robust_sigma_px);
+  EXPECT_LT(*clean.robust_sigma_px, 0.25);  // below what the solver believes, and stated as it is
+  EXPECT_GT(*noisy.rms_px, *clean.rms_px);
+  EXPECT_GT(*noisy.robust_sigma_px, 1.2 * *clean.robust_sigma_px);
+  // A photograph without edges has neither.
+  const Registration blank = Register(model, Image8(kWidth, kHeight, 1, 128), TrueTag(0));
+  EXPECT_FALSE(blank.rms_px.has_value());
+  EXPECT_FALSE(blank.robust_sigma_px.has_value());
+}
+
 // NTSC frames: the scan has other pixels than the frame, the camera is the same.
 TEST(RegisterPhotograph, NonSquarePixelsGiveTheSameCamera) {
   const PolygonModel model = MakeHouse();

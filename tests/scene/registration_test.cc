@@ -94,6 +94,7 @@ TEST(RegistrationFile, RoundTripsToTheLastBit) {
   registration.undetermined = {"shift_x"};
   registration.num_samples = 321;
   registration.rms_px = 0.1 + 0.2;
+  registration.robust_sigma_px = 0.21;
   registration.score_nats = 412.5;
   registration.margin_nats = 61;
   registration.moved_px = 16.8;
@@ -116,10 +117,44 @@ TEST(RegistrationFile, RoundTripsToTheLastBit) {
   EXPECT_EQ(again.undetermined, registration.undetermined);
   EXPECT_EQ(again.num_samples, 321);
   EXPECT_EQ(again.rms_px, registration.rms_px);
+  EXPECT_EQ(again.robust_sigma_px, 0.21);
   EXPECT_EQ(again.score_nats, 412.5);
   EXPECT_EQ(again.margin_nats, 61);
   EXPECT_EQ(again.moved_px, 16.8);
   EXPECT_EQ(again.vertex_sigma_px, 0.7);
+}
+
+// No rival, and nothing matched: null, not a number that looks like one.
+TEST(RegistrationFile, WhatThereIsNotIsNoNumber) {
+  Registration registration;
+  registration.name = "s5";
+  registration.width_px = registration.height_px = 100;
+  registration.measured = registration.corrected = S5();
+  const std::string text = FormatRegistrations({registration});
+  for (const char* null :
+       {"\"rms_px\": null", "\"robust_sigma_px\": null", "\"margin_nats\": null"}) {
+    EXPECT_NE(text.find(null), std::string::npos) << null;
+  }
+  const TemporaryFolder folder;
+  const Registration again = ReadRegistrations(folder.Write("registration.json", text)).at(0);
+  EXPECT_FALSE(again.rms_px.has_value());
+  EXPECT_FALSE(again.robust_sigma_px.has_value());
+  EXPECT_FALSE(again.margin_nats.has_value());
+
+  // Version 0.1 called the robust spread rms_px, and wrote a million where there was no rival.
+  std::string old = text;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const size_t at = old.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    old.replace(at, from.size(), to);
+  };
+  replace("\"rms_px\": null", "\"rms_px\": 0.3");
+  replace("   \"robust_sigma_px\": null,\n", "");
+  replace("\"margin_nats\": null", "\"margin_nats\": 1000000.0");
+  const Registration early = ReadRegistrations(folder.Write("old.json", old)).at(0);
+  EXPECT_FALSE(early.rms_px.has_value());
+  EXPECT_EQ(early.robust_sigma_px, 0.3);
+  EXPECT_FALSE(early.margin_nats.has_value());
 }
 
 TEST(RegistrationFile, KeepsWhereTheModelIsOff) {

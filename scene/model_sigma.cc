@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/model_sigma.h"
+
+#include "scene/error.h"
+#include "scene/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+namespace groundglass {
+namespace {
+
+constexpr double kSigmaOfBuilding_m = 0.03;
+constexpr double kSizeOfBuilding_m = 15;
+constexpr double kSizeInWrongUnit_m = 1000;
+constexpr double kShareInWrongUnit = 1e-3;
+
+double SizeInMetres(const PolygonModel& model) {
+  return ComputeBounds(model).Diagonal() * MetresPerUnit(model.unit);
+}
+
+}  // namespace
+
+double ModelScale(const PolygonModel& model) {
+  const double size_m = SizeInMetres(model);
+  // A model without extent is none; nothing is to be divided by its size.
+  return size_m > 0 ? std::min(1.0, size_m / kSizeOfBuilding_m) : 1;
+}
+
+double DefaultModelSigma(const PolygonModel& model) {
+  const double size_m = SizeInMetres(model);
+  const double sigma_m = model.is_unit_assumed && size_m > kSizeInWrongUnit_m
+                             ? kShareInWrongUnit * size_m
+                             : kSigmaOfBuilding_m * ModelScale(model);
+  return sigma_m / MetresPerUnit(model.unit);
+}
+
+double ModelSigma(const PolygonModel& model) {
+  return model.sigma.value_or(DefaultModelSigma(model));
+}
+
+void ReadSigmaComment(std::string_view rest,
+                      const std::filesystem::path& file,
+                      int line,
+                      PolygonModel& model) {
+  std::vector<TextToken> words;
+  const std::vector<TextLine> lines = SplitLines(rest);
+  if (!lines.empty()) words = lines.front().tokens;
+  const std::optional<double> sigma =
+      words.empty() ? std::nullopt : ParseNumber(words.front().text);
+  if (!sigma || !(*sigma > 0) || !std::isfinite(*sigma)) {
+    throw Error(file,
+                line,
+                "sigma: " + Quote(words.empty() ? "" : words.front().text) +
+                    " is not a length above 0; expected how far the model's edges may lie off, in "
+                    "the model's unit: 'sigma: 0.1'");
+  }
+  // "0.1 in each direction" is no length in inches.
+  const std::optional<LengthUnit> unit = words.size() == 2 ? FindUnit(words[1].text) : std::nullopt;
+  if (unit && *unit != model.unit) {
+    throw Error(file,
+                line,
+                "sigma is in " + UnitName(*unit) + ", but the model is in " + UnitName(model.unit) +
+                    ": give it in the model's unit");
+  }
+  model.sigma = *sigma;
+}
+
+std::string DescribeModelSigma(const PolygonModel& model) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%.3g %s", ModelSigma(model), UnitName(model.unit).c_str());
+  std::string description = text;
+  if (!model.sigma) {
+    description += ", by default ('% sigma:' in the model or --sigma-model says another)";
+  }
+  return description;
+}
+
+}  // namespace groundglass

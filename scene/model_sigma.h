@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/polygon_model.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace groundglass {
+
+// How far the model's edges may lie off what was built, one standard deviation, in the model's
+// unit: what the model or an option says (PolygonModel::sigma), else DefaultModelSigma.
+double ModelSigma(const PolygonModel& model);
+
+// 0.03 m for a building. A model less than 15 m across is drawn, built and measured in proportion:
+// 0.2 % of its size (the bounding box's diagonal). A model whose unit nobody says and that would be
+// more than a kilometre across is hardly in feet: 0.1 % of its size.
+double DefaultModelSigma(const PolygonModel& model);
+
+// How large the model is beside a building, for lengths that are measured on the spot: 1 from 15 m
+// across, below that in proportion.
+double ModelScale(const PolygonModel& model);
+
+// Takes the rest of a comment "sigma: 0.1", a length in the model's unit, which must be known by
+// now. Throws Error naming file and line unless it is a length above 0.
+void ReadSigmaComment(std::string_view rest,
+                      const std::filesystem::path& file,
+                      int line,
+                      PolygonModel& model);
+
+// "0.0984 ft, by default ('% sigma:' in the model or --sigma-model says another)", for a summary.
+std::string DescribeModelSigma(const PolygonModel& model);
+
+}  // namespace groundglass

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/register_photograph.h"
+#include "tests/support/spoilt_options.h"
+
+#include <gtest/gtest.h>
+
+namespace groundglass {
+namespace {
+
+TEST(RegistrationOptions, CheckNamesEachFieldOfTheSearch) {
+  [[maybe_unused]] const auto& [reach,
+                                width,
+                                step,
+                                grid,
+                                starts,
+                                distinct,
+                                again,
+                                rounds,
+                                centres] = HypothesisOptions();
+  ExpectCheckNamesEach<HypothesisOptions>({
+      {"reach_sigmas", [](auto& o) { o.reach_sigmas = kNotANumber; }},
+      {"width_cells", [](auto& o) { o.width_cells = 0; }},
+      {"step_cells", [](auto& o) { o.step_cells = 0; }},
+      {"max_grid_points", [](auto& o) { o.max_grid_points = 0; }},
+      {"max_starts", [](auto& o) { o.max_starts = -1; }},
+      {"distinct_cells", [](auto& o) { o.distinct_cells = kInfinity; }},
+      {"again_below_nats_per_vote", [](auto& o) { o.again_below_nats_per_vote = -1; }},
+      {"max_rounds", [](auto& o) { o.max_rounds = 0; }},
+      {"num_centres", [](auto& o) { o.num_centres = 0; }},
+  });
+}
+
+TEST(RegistrationOptions, CheckNamesEachFieldOfMatchingAndScore) {
+  [[maybe_unused]] const auto& [range, candidates, gate, outliers, vote] = MatchOptions();
+  ExpectCheckNamesEach<MatchOptions>({
+      {"final_range_px", [](auto& o) { o.final_range_px = 0; }},
+      {"max_candidates", [](auto& o) { o.max_candidates = 0; }},
+      {"gate_deg", [](auto& o) { o.gate_deg = 91; }},
+      {"outlier_share", [](auto& o) { o.outlier_share = 1; }},
+      {"vote_length_px", [](auto& o) { o.vote_length_px = kNotANumber; }},
+  });
+  [[maybe_unused]] const auto& [noise, crowd, length, angle] = ScoreOptions();
+  ExpectCheckNamesEach<ScoreOptions>({
+      {"noise_px", [](auto& o) { o.noise_px = 0; }},
+      {"crowd_range_px", [](auto& o) { o.crowd_range_px = -12; }},
+      {"vote_length_px", [](auto& o) { o.vote_length_px = 0; }},
+      {"gate_deg", [](auto& o) { o.gate_deg = kNotANumber; }},
+  });
+  [[maybe_unused]] const auto& [offset, turn, shared] = EdgeBias();
+  ExpectCheckNamesEach<EdgeBias>({
+      {"edge_offset_sigmas", [](auto& o) { o.edge_offset_sigmas = 0; }},
+      {"edge_turn_sigmas", [](auto& o) { o.edge_turn_sigmas = kInfinity; }},
+      {"shared_offset_sigmas", [](auto& o) { o.shared_offset_sigmas = -1; }},
+  });
+}
+
+TEST(RegistrationOptions, CheckNamesEachFieldOfRefinement) {
+  [[maybe_unused]] const auto& [start, shrink, spacing, matching, bias, noise] = RefineOptions();
+  ExpectCheckNamesEach<RefineOptions>({
+      {"start_sigmas", [](auto& o) { o.start_sigmas = -1; }},
+      {"shrink", [](auto& o) { o.shrink = 1; }},
+      {"spacing_px", [](auto& o) { o.spacing_px = 0; }},
+      {"matching.gate_deg", [](auto& o) { o.matching.gate_deg = 0; }},
+      {"bias.edge_turn_sigmas", [](auto& o) { o.bias.edge_turn_sigmas = 0; }},
+      {"min_noise_px", [](auto& o) { o.min_noise_px = 1.5; }},  // above half the final range
+  });
+  [[maybe_unused]] const auto& [common,
+                                common_turn,
+                                widest,
+                                ground,
+                                own,
+                                degrees,
+                                least_own,
+                                most_own,
+                                least_shared,
+                                most_shared,
+                                k1,
+                                view_angle,
+                                aspect,
+                                rounds,
+                                range,
+                                narrowing,
+                                least_noise,
+                                joint_matching] = JointOptions();
+  ExpectCheckNamesEach<JointOptions>({
+      {"common_offset_sigmas", [](auto& o) { o.common_offset_sigmas = 0; }},
+      {"common_turn_sigmas", [](auto& o) { o.common_turn_sigmas = kNotANumber; }},
+      {"widest_offset_sigmas", [](auto& o) { o.widest_offset_sigmas = 0; }},
+      {"ground_level_sigmas", [](auto& o) { o.ground_level_sigmas = 0; }},
+      {"own.edge_offset_sigmas", [](auto& o) { o.own.edge_offset_sigmas = 0; }},
+      {"own_degrees_of_freedom", [](auto& o) { o.own_degrees_of_freedom = 0; }},
+      {"least_own_offset_sigmas", [](auto& o) { o.least_own_offset_sigmas = 0; }},
+      {"most_own_offset_sigmas", [](auto& o) { o.most_own_offset_sigmas = 0.01; }},
+      {"least_shared_offset_sigmas", [](auto& o) { o.least_shared_offset_sigmas = 0; }},
+      {"most_shared_offset_sigmas", [](auto& o) { o.most_shared_offset_sigmas = 0.01; }},
+      {"own_k1_share", [](auto& o) { o.own_k1_share = 0; }},
+      {"own_view_angle_share", [](auto& o) { o.own_view_angle_share = 1.1; }},
+      {"own_aspect_share", [](auto& o) { o.own_aspect_share = kNotANumber; }},
+      {"num_rounds", [](auto& o) { o.num_rounds = 0; }},
+      {"start_range_px", [](auto& o) { o.start_range_px = 1; }},  // below the final range
+      {"shrink", [](auto& o) { o.shrink = 0; }},
+      {"min_noise_px", [](auto& o) { o.min_noise_px = 0; }},
+      {"matching.outlier_share", [](auto& o) { o.matching.outlier_share = 0; }},
+  });
+  [[maybe_unused]] const auto& [photographs, sigmas, offset] = ModelErrorOptions();
+  ExpectCheckNamesEach<ModelErrorOptions>({
+      {"min_photographs", [](auto& o) { o.min_photographs = 0; }},
+      {"min_sigmas", [](auto& o) { o.min_sigmas = kNotANumber; }},
+      {"min_offset_sigmas", [](auto& o) { o.min_offset_sigmas = -1; }},
+  });
+}
+
+TEST(RegistrationOptions, CheckNamesEachFieldOfThePrior) {
+  [[maybe_unused]] const auto& [position,
+                                position_share,
+                                height,
+                                height_share,
+                                lookat,
+                                lookat_share,
+                                roll,
+                                view_angle,
+                                aspect,
+                                shift,
+                                k1,
+                                scale,
+                                slide_aspect,
+                                digital,
+                                lock,
+                                free] = PriorOptions();
+  ExpectCheckNamesEach<PriorOptions>({
+      {"sigma-position", [](auto& o) { o.position_m = 0; }},
+      {"position_share", [](auto& o) { o.position_share = -1; }},
+      {"sigma-height", [](auto& o) { o.height_m = kNotANumber; }},
+      {"height_share", [](auto& o) { o.height_share = kNotANumber; }},
+      {"sigma-lookat", [](auto& o) { o.lookat_m = kInfinity; }},
+      {"lookat_share", [](auto& o) { o.lookat_share = kInfinity; }},
+      {"sigma-roll", [](auto& o) { o.roll_deg = 0; }},
+      {"sigma-v", [](auto& o) { o.view_angle_share = 0; }},
+      {"sigma-a", [](auto& o) { o.aspect_share = -1; }},
+      {"sigma-shift", [](auto& o) { o.shift = 0; }},
+      {"sigma-k1", [](auto& o) { o.k1 = kNotANumber; }},
+      {"slide_scale_share", [](auto& o) { o.slide_scale_share = -1; }},
+      {"slide_aspect_share", [](auto& o) { o.slide_aspect_share = kNotANumber; }},
+      {"option lock", [](auto& o) { o.lock = {"zoom"}; }},
+      {"option free", [](auto& o) { o.free = {"zoom"}; }},
+  });
+}
+
+TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
+  [[maybe_unused]] const auto& [prior,
+                                hypotheses,
+                                refine,
+                                score,
+                                joint,
+                                model_errors,
+                                independent,
+                                width,
+                                distance,
+                                margin_per_vote,
+                                margin,
+                                nats,
+                                sigmas,
+                                chi_squared,
+                                vertex,
+                                points,
+                                point_sigmas,
+                                overrule] = RegisterOptions();
+  ExpectCheckNamesEach<RegisterOptions>({
+      {"sigma-roll", [](auto& o) { o.prior.roll_deg = 0; }},
+      {"hypotheses.width_cells", [](auto& o) { o.hypotheses.width_cells = 0; }},
+      {"refine.matching.gate_deg", [](auto& o) { o.refine.matching.gate_deg = 0; }},
+      {"score.noise_px", [](auto& o) { o.score.noise_px = 0; }},
+      {"joint.own.edge_turn_sigmas", [](auto& o) { o.joint.own.edge_turn_sigmas = 0; }},
+      {"model_errors.min_sigmas", [](auto& o) { o.model_errors.min_sigmas = -1; }},
+      {"max_width_px", [](auto& o) { o.max_width_px = 63; }},
+      {"rival_distance_px", [](auto& o) { o.rival_distance_px = kNotANumber; }},
+      {"min_margin_per_vote", [](auto& o) { o.min_margin_per_vote = -1; }},
+      {"min_margin_nats", [](auto& o) { o.min_margin_nats = kInfinity; }},
+      {"min_nats_per_vote", [](auto& o) { o.min_nats_per_vote = kNotANumber; }},
+      {"max_prior_sigmas", [](auto& o) { o.max_prior_sigmas = 0; }},
+      {"max_prior_chi_squared", [](auto& o) { o.max_prior_chi_squared = 0; }},
+      {"max_vertex_sigma_px", [](auto& o) { o.max_vertex_sigma_px = 0; }},
+      {"s5: image_px",
+       [](auto& o) {
+         o.control_points = {{"s5", {kNotANumber, 1}, {1, 2, 3}}};
+       }},
+      {"point_in_world",
+       [](auto& o) {
+         o.control_points = {{"s5", {1, 1}, {1, 2, kInfinity}}};
+       }},
+      {"s5: sigma_px",
+       [](auto& o) {
+         o.control_points = {{"s5", {1, 1}, {1, 2, 3}, 0}};
+       }},
+      {"max_control_point_sigmas", [](auto& o) { o.max_control_point_sigmas = 0; }},
+      {"accept and reject",
+       [](auto& o) {
+         o.overrule = {{"s5"}, {"s5"}};
+       }},
+  });
+  RegisterOptions options;
+  options.hypotheses.width_cells = 0;
+  EXPECT_EQ(ThrownMessage([&] { options.Check(); }),
+            "registration options: hypotheses.width_cells must be from 16 to 10000, not 0");
+}
+
+}  // namespace
+}  // namespace groundglass
