@@ -6,8 +6,10 @@
 #include "scene/colmap_io.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
+#include "scene/image_kind.h"
 #include "scene/mesh_io.h"
 #include "scene/osu_io.h"
+#include "scene/photograph_name.h"
 #include "scene/scene_folder.h"
 #include "scene/text.h"
 #include "scene/textured_model_io.h"
@@ -94,11 +96,10 @@ ConvertResult ConvertViewsToColmap(const fs::path& input,
   if (!fs::is_directory(images, error)) {
     throw Error(images, "no such folder of images, which tell the photographs' sizes");
   }
-  std::map<std::string, fs::path> image_of_stem;
-  for (const fs::directory_entry& entry : fs::directory_iterator(images)) {
-    if (entry.is_regular_file() && entry.path().filename().string().front() != '.') {
-      image_of_stem.emplace(entry.path().stem().string(), entry.path());
-    }
+  const std::vector<fs::path> image_files = ListImageFiles(images);
+  std::vector<PhotographName> image_names;
+  for (const fs::path& file : image_files) {
+    image_names.push_back({ImageStem(file), file.filename().string()});
   }
   std::vector<fs::path> views;
   for (const fs::directory_entry& entry : fs::directory_iterator(input)) {
@@ -110,14 +111,14 @@ ConvertResult ConvertViewsToColmap(const fs::path& input,
   std::vector<NamedCamera> cameras;
   for (const fs::path& view : views) {
     const ViewTag tag = ReadView(view);
-    const auto image = image_of_stem.find(view.stem().string());
-    if (image == image_of_stem.end()) {
+    const std::optional<size_t> found = FindPhotograph(view.stem().string(), image_names);
+    if (!found) {
       result.warnings.push_back(Error(view, "left out, since it has no image").what());
       continue;
     }
-    const ImageSize size = ReadImageSize(image->second);
-    cameras.push_back(
-        {image->second.filename().string(), CameraFromTag(tag, size.width, size.height)});
+    const fs::path& image = image_files[*found];
+    const ImageSize size = ReadImageSize(image);
+    cameras.push_back({image.filename().string(), CameraFromTag(tag, size.width, size.height)});
   }
   if (cameras.empty()) throw Error(input, "no view file here has an image");
   WriteColmapModel(output, cameras);

@@ -3,8 +3,12 @@
 #include "scene/scene_folder.h"
 
 #include "scene/error.h"
+#include "scene/ignore_mask.h"
+#include "scene/image_kind.h"
+#include "scene/photograph_name.h"
 #include "scene/tags_csv.h"
 #include "scene/text.h"
+#include "scene/text_encoding.h"
 #include "scene/view_io.h"
 
 #include <tbb/parallel_for.h>
@@ -21,10 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 6> kModelExtensions = {
     ".osu", ".obj", ".ply", ".stl", ".glb", ".gltf"};
-constexpr std::array<std::string_view, 6> kImageExtensions = {
-    ".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr"};
 constexpr const char* kModelNames = "model.osu, .obj, .ply, .stl or .glb";
-constexpr const char* kImageNames = ".jpg, .png, .tif or .exr";
 
 template <size_t N>
 bool HasExtension(const fs::path& file, const std::array<std::string_view, N>& extensions) {
@@ -127,21 +128,44 @@ class SceneReader {
     }
   }
 
+  // The images of a sub-folder by their names, and what else lies there told once.
   FilesByStem ListImages(const char* subfolder) {
     FilesByStem images;
     for (const fs::path& file : ListFiles(folder_ / subfolder)) {
-      if (!HasExtension(file, kImageExtensions)) {
-        Warn(file, std::string("not an image that is read here; expected ") + kImageNames);
+      const ImageKind kind = FindImageKind(file);
+      if (!kind.IsImage() && !IsImageExtension(file.extension().string())) {
+        Warn(file,
+             "not an image that is read here, but " + kind.description + "; expected " +
+                 kImageNames + "; " + kind.remedy);
         continue;
       }
-      const auto [place, is_new] = images.emplace(file.stem().string(), file);
-      if (!is_new) {
-        Fault(Error(file,
-                    "two images have the stem " + Quote(place->first) + "; the other is " +
-                        place->second.filename().string()));
+      const std::string name = NameInUtf8(file, ImageStem(file));
+      const auto [place, is_new] = images.emplace(name, file);
+      if (is_new) continue;
+      // Cameras write both; the picture that is developed already is the better known one.
+      const bool is_raw = kind.reader == "raw";
+      if (is_raw != (FindImageKind(place->second).reader == "raw")) {
+        const fs::path raw_file = is_raw ? file : place->second;
+        if (!is_raw) place->second = file;
+        Warn(raw_file,
+             "camera raw file left out, since " + place->second.filename().string() +
+                 " is there too");
+        continue;
       }
+      Fault(Error(file,
+                  "two images have the stem " + Quote(place->first) + "; the other is " +
+                      place->second.filename().string()));
     }
     return images;
+  }
+
+  // A name from a file's, which old archives may have in Latin-1.
+  std::string NameInUtf8(const fs::path& file, const std::string& name) {
+    const Utf8Text utf8 = Utf8FromBytes(name);
+    if (utf8.is_guessed) {
+      Warn(file, "its name is not UTF-8; it is taken as " + Quote(utf8.text) + ", rename it");
+    }
+    return utf8.text;
   }
 
   void ReadTags(const FilesByStem& images) {
@@ -156,7 +180,7 @@ class SceneReader {
           Warn(file, "not a view file; expected the extension .view");
           continue;
         }
-        const std::string name = file.stem().string();
+        const std::string name = NameInUtf8(file, file.stem().string());
         try {
           const std::string text = ReadTextFile(file);
           const std::vector<std::string> faults = FindViewFaults(text, file);
@@ -172,6 +196,8 @@ class SceneReader {
       try {
         const TagTable rows = ReadTagTable(table, result_.scene.model);
         result_.faults.insert(result_.faults.end(), rows.faults.begin(), rows.faults.end());
+        std::vector<std::string>& warnings = result_.scene.warnings;
+        warnings.insert(warnings.end(), rows.warnings.begin(), rows.warnings.end());
         for (const TagRow& row : rows.rows) {
           tags_[row.name] = {row.tag, {}};
           known_names_[row.name] = table;
@@ -189,21 +215,37 @@ class SceneReader {
   }
 
   void Match(const FilesByStem& images) {
+    std::vector<std::string> tag_names;
+    for (const auto& [name, file] : known_names_) tag_names.push_back(name);
+    std::vector<PhotographName> image_names;
     for (const auto& [name, file] : images) {
-      if (known_names_.count(name) > 0) continue;
+      image_names.push_back({name, file.filename().string()});
+    }
+    // An image is a tag's by its name, even if another program writes it in another way.
+    const std::vector<std::optional<size_t>> matches = MatchPhotographs(tag_names, image_names);
+    std::map<std::string, fs::path> image_of_tag;
+    std::vector<PhotographName> left;
+    for (size_t i = 0; i < image_names.size(); ++i) {
+      const auto tag = std::find(matches.begin(), matches.end(), i);
+      const std::string& name = image_names[i].name;
+      if (tag != matches.end()) {
+        image_of_tag[tag_names[static_cast<size_t>(tag - matches.begin())]] = images.at(name);
+        continue;
+      }
+      left.push_back(image_names[i]);
       const std::string expected =
           tags_place_.empty() ? "views/" + name + ".view" : tags_place_ + " for " + name;
-      Warn(file, "photograph without a tag; expected " + expected);
+      Warn(images.at(name), "photograph without a tag; expected " + expected);
     }
     for (const auto& [name, file] : known_names_) {
-      if (images.count(name) > 0) continue;
+      if (image_of_tag.count(name) > 0) continue;
       Warn(file,
            "tag of " + name + " without a photograph; expected images/" + name + " with " +
-               kImageNames);
+               kImageNames + NearestName(name, left));
     }
     for (const auto& [name, found] : tags_) {
-      const auto image = images.find(name);
-      if (image == images.end()) continue;
+      const auto image = image_of_tag.find(name);
+      if (image == image_of_tag.end()) continue;
       Photograph photograph;
       photograph.name = name;
       photograph.image_file = image->second;
@@ -214,6 +256,13 @@ class SceneReader {
       } catch (const Error& error) {
         Fault(error);
         continue;
+      }
+      try {
+        for (const std::string& warning : InspectImage(image->second).warnings) {
+          result_.scene.warnings.push_back(warning);
+        }
+      } catch (const Error&) {
+        // Reading its pixels says the same.
       }
       LookForOddities(photograph);
       result_.scene.photographs.push_back(std::move(photograph));
@@ -248,25 +297,26 @@ class SceneReader {
   }
 
   void AddMasks(const char* subfolder, std::optional<fs::path> Photograph::*member) {
+    std::vector<std::string> names;
+    std::vector<fs::path> files;
     for (const auto& [name, file] : ListImages(subfolder)) {
-      const auto photograph =
-          std::find_if(result_.scene.photographs.begin(),
-                       result_.scene.photographs.end(),
-                       [&](const Photograph& candidate) { return candidate.name == name; });
-      if (photograph == result_.scene.photographs.end()) {
-        Warn(file, "mask without a photograph; expected images/" + name + " with " + kImageNames);
+      names.push_back(name);
+      files.push_back(file);
+    }
+    std::vector<Photograph>& photographs = result_.scene.photographs;
+    const std::vector<std::optional<size_t>> matches =
+        MatchPhotographs(names, NamesOf(photographs));
+    for (size_t i = 0; i < files.size(); ++i) {
+      const fs::path& file = files[i];
+      if (!matches[i]) {
+        Warn(file,
+             "mask without a photograph; expected images/" + names[i] + " with " + kImageNames);
         continue;
       }
+      Photograph& photograph = photographs[*matches[i]];
       try {
-        const ImageSize size = ReadImageSize(file);
-        if (size.width != photograph->size.width || size.height != photograph->size.height) {
-          throw Error(file,
-                      "mask has " + std::to_string(size.width) + " x " +
-                          std::to_string(size.height) + " pixels, its photograph " +
-                          std::to_string(photograph->size.width) + " x " +
-                          std::to_string(photograph->size.height));
-        }
-        (*photograph).*member = file;
+        CheckMaskSize(file, ReadImageSize(file), photograph.size);
+        photograph.*member = file;
       } catch (const Error& error) {
         Fault(error);
       }
@@ -288,7 +338,9 @@ class SceneReader {
       };
       const Photograph& photograph = photographs[i];
       attempt([&] { ReadSrgb8(photograph.image_file); });
-      if (photograph.mask_file) attempt([&] { ReadLabels(*photograph.mask_file); });
+      if (photograph.mask_file) {
+        attempt([&] { ReadIgnoreMask(*photograph.mask_file, photograph.size); });
+      }
       if (photograph.faces_file) {
         attempt([&] {
           const Image16 labels = ReadLabels(*photograph.faces_file);
@@ -324,34 +376,6 @@ Scene ReadScene(const fs::path& folder, const SceneOptions& options) {
 
 SceneCheck CheckScene(const fs::path& folder, const SceneOptions& options) {
   return SceneReader(folder, options).Read(true);
-}
-
-bool NaturalLess(const std::string& a, const std::string& b) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  size_t i = 0;
-  size_t k = 0;
-  while (i < a.size() && k < b.size()) {
-    if (!is_digit(a[i]) || !is_digit(b[k])) {
-      if (a[i] != b[k]) return a[i] < b[k];
-      ++i;
-      ++k;
-      continue;
-    }
-    // Compare two numbers of any length: without leading zeros the longer one is greater.
-    size_t i_end = i;
-    size_t k_end = k;
-    while (i_end < a.size() && is_digit(a[i_end])) ++i_end;
-    while (k_end < b.size() && is_digit(b[k_end])) ++k_end;
-    while (i + 1 < i_end && a[i] == '0') ++i;
-    while (k + 1 < k_end && b[k] == '0') ++k;
-    if (i_end - i != k_end - k) return i_end - i < k_end - k;
-    const int order = a.compare(i, i_end - i, b, k, k_end - k);
-    if (order != 0) return order < 0;
-    i = i_end;
-    k = k_end;
-  }
-  if (i < a.size() || k < b.size()) return k < b.size();
-  return a < b;  // "s01" and "s1" differ only in zeros
 }
 
 }  // namespace groundglass

@@ -5,6 +5,7 @@
 #include "scene/image_io.h"
 #include "scene/model_io.h"
 #include "scene/polygon_model.h"
+#include "scene/text.h"
 #include "scene/view_tag.h"
 
 #include <filesystem>
@@ -50,8 +51,5 @@ struct SceneCheck {
   std::vector<std::string> faults;
 };
 SceneCheck CheckScene(const std::filesystem::path& folder, const SceneOptions& options = {});
-
-// "s2" < "s10": runs of digits compare as numbers.
-bool NaturalLess(const std::string& a, const std::string& b);
 
 }  // namespace groundglass
