@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "calibrate/board.h"
 
+#include "calibrate/board_layout.h"
 #include "calibrate/board_solve.h"
 #include "calibrate/tag_corners.h"
 #include "calibrate/tag_detection.h"
@@ -9,6 +10,7 @@
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/srgb.h"
+#include "scene/text.h"
 
 #include <tbb/parallel_for.h>
 
@@ -16,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -74,6 +77,7 @@ std::vector<TagDetection> PredictDetections(const Board& board,
     const Eigen::Matrix<double, 2, 4> on_board = TagCornersOnBoard(board, tag.id);
     TagDetection detection;
     detection.id = tag.id + board.first_id;
+    detection.border_cells = board.border_cells;
     bool is_seen = true;
     for (int corner = 0; corner < 4; ++corner) {
       const Eigen::Vector3d in_board(on_board(0, corner), on_board(1, corner), 0);
@@ -101,10 +105,42 @@ double RmsPx(const Board& board, const BoardShot& shot, const Camera& lens) {
   return shot.tags.empty() ? 0 : std::sqrt(squared_px / (8.0 * shot.tags.size()));
 }
 
-void CheckFit(double rms_px, double max_rms_px) {
+// seen: what the photographs show in its place, for the message.
+void CheckFit(double rms_px, double max_rms_px, const std::function<std::string()>& seen) {
   if (rms_px <= max_rms_px) return;
+  const std::string text = seen();
   throw Error("calibrate board: the corners miss the board by " + Format("%.1f", rms_px) +
-              " px; check columns, rows, tag size and gap, and that the board is flat");
+              " px; check columns, rows, tag size and gap, and that the board is flat" +
+              (text.empty() ? "" : "; ") + text);
+}
+
+// Why too few photographs show the board.
+std::string ExplainWhy(std::span<const BoardPhotograph> photographs,
+                       const Board& board,
+                       const std::vector<std::vector<TagDetection>>& detections) {
+  const int end_id = board.first_id + board.columns * board.rows;
+  size_t num_tags = 0;
+  size_t num_own = 0;
+  size_t most = 0;
+  for (size_t i = 0; i < detections.size(); ++i) {
+    num_tags += detections[i].size();
+    num_own += static_cast<size_t>(
+        std::count_if(detections[i].begin(), detections[i].end(), [&](const TagDetection& tag) {
+          return tag.id >= board.first_id && tag.id < end_id;
+        }));
+    if (detections[i].size() > detections[most].size()) most = i;
+  }
+  if (num_tags == 0) {
+    // Several, since one may show nothing at all.
+    std::string text;
+    for (size_t i = 0; i < std::min<size_t>(photographs.size(), 3); ++i) {
+      text = DescribeOtherTags(photographs[i].srgb_grey);
+      if (text.find("no AprilTags") == std::string::npos) break;
+    }
+    return "; " + text;
+  }
+  if (2 * num_own > num_tags) return "";
+  return "; " + DescribeSeenBoard(board, detections);
 }
 
 // What would make the lens better known.
@@ -193,9 +229,14 @@ void Board::Check() const {
   CheckFromTo(rows, 2, kNumTagIds, "board: rows");
   CheckAbove(tag_size, 0, "board: tag size");
   if (!(gap >= 0.1 * tag_size && gap <= tag_size)) {
+    const bool may_be_ratio = gap >= 0.1 && gap <= 1;
     throw Error(
         "board: gap must be between a tenth of the tag size and the tag size; a tag needs "
-        "white around it");
+        "white around it" +
+        (may_be_ratio ? "; if " + FormatNumber(gap) +
+                            " is its ratio to the tag size, as Kalibr's tagSpacing, give --gap " +
+                            FormatNumber(std::round(1e6 * gap * tag_size) / 1e6)
+                      : ""));
   }
   if (first_id < 0 || first_id + static_cast<long>(columns) * rows > kNumTagIds) {
     throw Error("board: columns x rows needs more tags than the family tag36h11 has (" +
@@ -210,7 +251,10 @@ void BoardOptions::Check() const {
 
 Eigen::Matrix<double, 2, 4> TagCornersOnBoard(const Board& board, int index) {
   const double pitch = board.tag_size + board.gap;
-  const Eigen::Vector2d top_left(pitch * (index % board.columns), pitch * (index / board.columns));
+  const int stride = board.numbering.stride > 0 ? board.numbering.stride : board.columns;
+  const Eigen::Vector2i place =
+      board.numbering.grid_from_count * Eigen::Vector2i(index % stride, index / stride);
+  const Eigen::Vector2d top_left = pitch * place.cast<double>();
   Eigen::Matrix<double, 2, 4> corners;
   corners << 0, 1, 1, 0,  //
       0, 0, 1, 1;
@@ -219,9 +263,9 @@ Eigen::Matrix<double, 2, 4> TagCornersOnBoard(const Board& board, int index) {
 }
 
 BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
-                           const Board& board,
+                           const Board& given,
                            const BoardOptions& options) {
-  board.Check();
+  given.Check();
   options.Check();
   CheckSizes(photographs);
   if (photographs.empty()) throw Error("calibrate board: no photographs");
@@ -232,13 +276,19 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
   const LensVector no_lens{
       2 * std::atan(0.5), static_cast<double>(width_px) / height_px, 0, 0, 0, 0};
   const Camera straight = CameraFromLensVector(no_lens, width_px, height_px);
+  std::vector<std::vector<TagDetection>> detections(photographs.size());
+  tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
+    detections[i] = DetectTags(photographs[i].srgb_grey);
+  });
+  const Board board = FindBoardLayout(given, detections);
   std::vector<std::vector<TagCorners>> tags(photographs.size());
   tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
-    const Image8& grey = photographs[i].srgb_grey;
-    tags[i] = MeasureShot(board, LinearFromGrey(grey), DetectTags(grey), straight);
+    tags[i] = MeasureShot(board, LinearFromGrey(photographs[i].srgb_grey), detections[i], straight);
   });
+  const auto seen = [&] { return DescribeSeenBoard(board, detections); };
 
   BoardResult result;
+  result.layout = DescribeLayout(board);
   std::vector<BoardShot> shots;
   for (size_t i = 0; i < photographs.size(); ++i) {
     result.photographs.push_back({photographs[i].name, 0, 0, {}});
@@ -249,16 +299,17 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
     throw Error("calibrate board: " + std::to_string(shots.size()) + " of " +
                 std::to_string(photographs.size()) + " photographs show the board with at least " +
                 std::to_string(options.min_tags) +
-                " of its tags; at least 3 are needed, from several sides");
+                " of its tags; at least 3 are needed, from several sides" +
+                ExplainWhy(photographs, board, detections));
   }
 
   const LensVector start = EstimateLens(board, shots, width_px, height_px);
   const Camera start_lens = CameraFromLensVector(start, width_px, height_px);
   for (const BoardShot& shot : shots) {
-    CheckFit(RmsPx(board, shot, start_lens), kMaxStartMisfit * width_px);
+    CheckFit(RmsPx(board, shot, start_lens), kMaxStartMisfit * width_px, seen);
   }
   LensSolution solution = RefineLens(board, options, start, shots, width_px, height_px);
-  CheckFit(solution.rms_px, options.max_rms_px);
+  CheckFit(solution.rms_px, options.max_rms_px, seen);
 
   // Measure again where the solution expects the edges, straight in its lens.
   const Camera found = CameraFromLensVector(solution.lens, width_px, height_px);

@@ -8,28 +8,41 @@
 
 #include <Eigen/Dense>
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace groundglass {
 
-// A flat grid of AprilTags of the family tag36h11 (Olson 2011), numbered row by row from the top
-// left. Lengths are in any one unit: a lens does not depend on it.
-// The board's frame: x along the rows, y down the columns, z into the board; its origin is the
-// first tag's top-left black corner.
+// Which tag of a board has which number. That of number first_id + i stands at this place of the
+// grid, in steps of one tag from the first, in the tags' own directions (x right, y down):
+//   grid_from_count * (i % stride, i / stride)
+struct BoardNumbering {
+  int stride = 0;  // tags before the next row begins; 0: as many as the board has columns
+  Eigen::Matrix2i grid_from_count = Eigen::Matrix2i::Identity();
+};
+
+// A flat grid of AprilTags of the family tag36h11 (Olson 2011), as DrawBoard draws it numbered row
+// by row from the top left. Lengths are in any one unit: a lens does not depend on it. Boards that
+// are numbered in another order, or whose tags are turned (OpenCV's) or have a border of two cells
+// and squares between them (Kalibr's), are told by their photographs.
+// The board's frame is the first tag's: x right, y down, z into the board; its origin is that tag's
+// top-left black corner.
 struct Board {
   int columns = 6;
   int rows = 4;
-  double tag_size = 1;  // edge of a tag's black square
-  double gap = 0.25;    // white between neighbouring black squares
-  int first_id = 0;     // of the top-left tag; the family has 587
+  double tag_size = 1;   // edge of a tag's black square
+  double gap = 0.25;     // white between neighbouring black squares
+  int first_id = 0;      // the lowest number; the family has 587
+  int border_cells = 1;  // of a tag's black border; 2 is Kalibr's
+  BoardNumbering numbering;
 
   void Check() const;  // throws Error naming the first field out of range
 };
 
 // The four black corners of a board's tag: top left, top right, bottom right, bottom left.
-// `index` counts row by row from 0.
+// `index` counts from 0 in the order of the numbers.
 Eigen::Matrix<double, 2, 4> TagCornersOnBoard(const Board& board, int index);
 
 // The board as a picture to print: black 0, white 255, one channel, a white margin and a line
@@ -70,9 +83,15 @@ struct BoardResult {
   std::vector<BoardSighting> photographs;  // in the order given
   int num_corners = 0;
   double rms_px = 0;  // over all corners, each axis apart
+  // How the photographs show the board, if not as DrawBoard draws it; one line, for a person.
+  std::string layout;
   // What would make the lens better known; one line each, for a person.
   std::vector<std::string> remarks;
 };
+
+// Reads Kalibr's target file (target_type: aprilgrid, tagCols, tagRows, tagSize, tagSpacing), whose
+// tagSpacing is the gap as a share of the tag. Throws Error naming file and line.
+Board ReadKalibrTarget(const std::filesystem::path& file);
 
 // Finds the lens that took these photographs of a board: detects the tags, measures their corners
 // where the fitted black edges meet, starts from homographies (Zhang 2000), and refines the lens

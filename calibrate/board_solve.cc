@@ -106,8 +106,22 @@ TagFit EvaluateTag(const TagResidual& residual, const LensVector& lens, const Po
   return {(residual.root_information * error_px).norm(), error_px.squaredNorm()};
 }
 
-// The homography from the board's plane to pixels about the frame's centre, by the normalised
-// linear method (Hartley & Zisserman 2004, algorithm 4.2).
+// The pose whose plane z = 0 the homography K^-1 H shows (Zhang 2000, section 3.1).
+RigidTransform PoseFromHomography(const Eigen::Matrix3d& normalised_homography) {
+  Eigen::Matrix3d h = normalised_homography;
+  h /= 0.5 * (h.col(0).norm() + h.col(1).norm());
+  if (h(2, 2) < 0) h = -h;  // the board is in front
+  Eigen::Matrix3d axes;
+  axes << h.col(0), h.col(1), h.col(0).cross(h.col(1));
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  RigidTransform cam_from_board;
+  cam_from_board.rotation = svd.matrixU() * svd.matrixV().transpose();
+  cam_from_board.translation = h.col(2);
+  return cam_from_board;
+}
+
+}  // namespace
+
 Eigen::Matrix3d EstimateHomography(const Board& board,
                                    const BoardShot& shot,
                                    const Eigen::Vector2d& center_px,
@@ -138,22 +152,6 @@ Eigen::Matrix3d EstimateHomography(const Board& board,
   homography.leftCols<2>() /= board_scale;
   return homography;
 }
-
-// The pose whose plane z = 0 the homography K^-1 H shows (Zhang 2000, section 3.1).
-RigidTransform PoseFromHomography(const Eigen::Matrix3d& normalised_homography) {
-  Eigen::Matrix3d h = normalised_homography;
-  h /= 0.5 * (h.col(0).norm() + h.col(1).norm());
-  if (h(2, 2) < 0) h = -h;  // the board is in front
-  Eigen::Matrix3d axes;
-  axes << h.col(0), h.col(1), h.col(0).cross(h.col(1));
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  RigidTransform cam_from_board;
-  cam_from_board.rotation = svd.matrixU() * svd.matrixV().transpose();
-  cam_from_board.translation = h.col(2);
-  return cam_from_board;
-}
-
-}  // namespace
 
 Camera CameraFromLensVector(const LensVector& lens, int width_px, int height_px) {
   Camera camera;

@@ -27,6 +27,13 @@ using LensMatrix = Eigen::Matrix<double, 6, 6>;
 // The intrinsics that they stand for, with an identity pose (view_tag.h has the formula).
 Camera CameraFromLensVector(const LensVector& lens, int width_px, int height_px);
 
+// The homography from the board's plane to pixels, by the normalised linear method (Hartley &
+// Zisserman 2004, algorithm 4.2); pixels are about center_px.
+Eigen::Matrix3d EstimateHomography(const Board& board,
+                                   const BoardShot& shot,
+                                   const Eigen::Vector2d& center_px,
+                                   double scale_px);
+
 // A first lens without distortion, its principal point in the middle, from the photographs'
 // homographies, and each photograph's pose with it (Zhang, PAMI 2000, sections 3.1 and 3.3).
 // Sets the shots' poses.

@@ -136,6 +136,7 @@ std::optional<TagCorners> MeasureTagCorners(const ImageF& radiance_grey,
     const Eigen::Vector3d ray = UnprojectToCam(lens, image_px);
     return {lens.focal_x_px * ray.x(), lens.focal_y_px * ray.y()};
   };
+  const double border_share = start.border_cells / (kTagCells - 2.0 + 2 * start.border_cells);
   std::array<EdgeLine, 4> lines;
   for (int edge = 0; edge < 4; ++edge) {
     // Edges go round clockwise on the screen, so the white is on the left of the direction.
@@ -148,7 +149,7 @@ std::optional<TagCorners> MeasureTagCorners(const ImageF& radiance_grey,
     const Eigen::Vector2d opposite =
         0.5 * (start.corners_px.col((edge + 2) % 4) + start.corners_px.col((edge + 3) % 4));
     const double depth_px = -outward.dot(opposite - 0.5 * (from + to));
-    const double room_px = depth_px * std::min(1.0 / kTagCells, gap_share);
+    const double room_px = depth_px * std::min(border_share, gap_share);
     const double reach_px = std::min(kMaxReachPx, 0.9 * room_px - kLevelPx);
     if (reach_px < kMinReachPx) return std::nullopt;
 

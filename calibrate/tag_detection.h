@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include <string>
 #include <vector>
 
 namespace groundglass {
@@ -14,12 +15,18 @@ namespace groundglass {
 // square's corners, in the tag's own order: top left, top right, bottom right, bottom left.
 struct TagDetection {
   int id = 0;
+  int border_cells = 1;  // of its black border: 2 on Kalibr's boards
   Eigen::Matrix<double, 2, 4> corners_px;
 };
 
-// Finds tags in 8-bit sRGB grey, sorted by id. An id that is seen twice is left out, since nobody
-// can tell which one is meant. Corners are good to a few tenths of a pixel.
+// Finds tags with borders of one and two cells in 8-bit sRGB grey, sorted by id. An id that is seen
+// twice is left out, since nobody can tell which one is meant. Corners are good to a few tenths of
+// a pixel.
 std::vector<TagDetection> DetectTags(const Image8& srgb_grey);
+
+// What else there is to see where DetectTags finds nothing, as the end of a sentence: tags of
+// another family, a mirrored or a negative picture; else that there are no AprilTags.
+std::string DescribeOtherTags(const Image8& srgb_grey);
 
 // A tag's 8 x 8 cells, black border included: true is white. Throws Error beyond the family's end.
 constexpr int kTagCells = 8;

@@ -147,7 +147,9 @@ void NarrowPhotographs(const BakeArguments& arguments,
   ExcludePhotographs(arguments.exclude, photographs);
   if (arguments.masks_folder) UseMasks(*arguments.masks_folder, photographs);
   const std::filesystem::path pairs = scene.folder / "pairs.csv";
-  if (std::filesystem::exists(pairs)) RestrictToPairs(pairs, scene.model, photographs);
+  if (std::filesystem::exists(pairs)) {
+    RestrictToPairs(pairs, scene.model, photographs, NamesOf(scene.photographs));
+  }
   if (!arguments.only.empty()) {
     RestrictToFaces(scene.model, FindFaces(scene.model, arguments.only), photographs);
   }

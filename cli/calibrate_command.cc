@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct BoardArguments {
   std::filesystem::path lens_file;
   std::filesystem::path print_file;
   std::string camera;
+  std::optional<std::filesystem::path> target_file;
   Board board;
   BoardOptions options;
 };
@@ -60,6 +62,7 @@ nlohmann::ordered_json JsonFromResult(const BoardResult& result) {
                   {"sigma_k2", lens.sigma_k2}};
   json["corners"] = result.num_corners;
   json["rms_px"] = result.rms_px;
+  if (!result.layout.empty()) json["layout"] = result.layout;
   json["remarks"] = result.remarks;
   json["photographs"] = nlohmann::ordered_json::array();
   for (const BoardSighting& sighting : result.photographs) {
@@ -78,6 +81,7 @@ void PrintResult(const BoardResult& result) {
           "%s: %d tags, %.3f px\n", sighting.name.c_str(), sighting.num_tags, sighting.rms_px);
     }
   }
+  if (!result.layout.empty()) std::printf("board: %s\n", result.layout.c_str());
   const Lens& lens = result.lens;
   std::printf("%d corners, %.3f px\n", result.num_corners, result.rms_px);
   std::printf("v        %10.4f +- %.4f degrees\n", lens.view_angle_deg, lens.sigma_view_angle_deg);
@@ -108,7 +112,9 @@ int CalibrateFromPhotographs(const BoardArguments& arguments) {
                file.filename().string());
     }
   }
-  BoardResult result = CalibrateBoard(photographs, arguments.board, arguments.options);
+  const Board board =
+      arguments.target_file ? ReadKalibrTarget(*arguments.target_file) : arguments.board;
+  BoardResult result = CalibrateBoard(photographs, board, arguments.options);
   result.lens.name = arguments.camera;
   WriteFileAtomically(arguments.lens_file, FormatLens(result.lens));
   if (arguments.common.json) {
@@ -131,6 +137,8 @@ void AddBoardCommand(CLI::App* calibrate, int& exit_status) {
   command->add_option("-o,--out", arguments->lens_file, "the lens file to write");
   command->add_option(
       "--print", arguments->print_file, "draw the board to print, instead of calibrating");
+  CLI::Option* target = command->add_option(
+      "--target", arguments->target_file, "Kalibr's aprilgrid file, in place of the board's sizes");
   command->add_option("--columns", arguments->board.columns, "tags in a row")
       ->capture_default_str();
   command->add_option("--rows", arguments->board.rows, "tags in a column")->capture_default_str();
@@ -138,8 +146,11 @@ void AddBoardCommand(CLI::App* calibrate, int& exit_status) {
       ->capture_default_str();
   command->add_option("--gap", arguments->board.gap, "white between two squares, same unit")
       ->capture_default_str();
-  command->add_option("--first-id", arguments->board.first_id, "number of the top-left tag")
+  command->add_option("--first-id", arguments->board.first_id, "lowest number of its tags")
       ->capture_default_str();
+  for (const char* size : {"--columns", "--rows", "--tag-size", "--gap", "--first-id", "--print"}) {
+    target->excludes(command->get_option(size));
+  }
   command->add_flag("--k2", arguments->options.refine_k2, "free k2 as well: for wide lenses");
   command->add_option("--camera", arguments->camera, "the tags' camera name that it serves");
   AddCommonOptions(command, arguments->common);

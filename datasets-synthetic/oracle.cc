@@ -6,6 +6,8 @@
 #include "scene/cubic_weights.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
+#include "scene/image_kind.h"
+#include "scene/photograph_name.h"
 #include "scene/srgb.h"
 #include "scene/visibility.h"
 
@@ -135,17 +137,16 @@ void CheckSize(const OraclePhotograph& photograph, int width, int height) {
 std::vector<OraclePhotograph> FindOraclePhotographs(const Truth& truth) {
   const fs::path folder =
       fs::absolute(truth.folder / ".").lexically_normal().parent_path().parent_path() / "images";
+  const std::vector<fs::path> files = ListImageFiles(folder);
+  std::vector<PhotographName> names;
+  for (const fs::path& file : files) names.push_back({ImageStem(file), file.filename().string()});
   std::vector<OraclePhotograph> photographs;
   for (const NamedCamera& named : truth.cameras) {
     OraclePhotograph& photograph = photographs.emplace_back();
     photograph.camera = named.camera;
-    for (const char* extension : {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr"}) {
-      const fs::path file = folder / (named.name + extension);
-      if (fs::exists(file)) photograph.image_file = file;
-    }
-    if (photograph.image_file.empty()) {
-      throw Error(folder, "has no photograph called " + named.name);
-    }
+    const std::optional<size_t> found = FindPhotograph(named.name, names);
+    if (!found) throw Error(folder, "has no photograph called " + named.name);
+    photograph.image_file = files[*found];
     if (!truth.masks_occ_folder.empty()) {
       const fs::path mask = truth.masks_occ_folder / (named.name + ".png");
       if (fs::exists(mask)) photograph.occlusion_mask_file = mask;

@@ -5,6 +5,7 @@
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
+#include "scene/photograph_name.h"
 #include "scene/textured_model_io.h"
 
 #include <tbb/parallel_for.h>
@@ -28,15 +29,9 @@ BakePhotograph MakeBakePhotograph(const Photograph& photograph, const Camera& ca
   return bake;
 }
 
-const Photograph* FindPhotograph(const Scene& scene, const std::string& name) {
-  const std::string stem = std::filesystem::path(name).stem().string();
-  for (const Photograph& photograph : scene.photographs) {
-    if (photograph.name == name || photograph.image_file.filename() == name) return &photograph;
-  }
-  for (const Photograph& photograph : scene.photographs) {
-    if (photograph.name == stem) return &photograph;
-  }
-  return nullptr;
+const Photograph* FindInScene(const Scene& scene, const std::string& name) {
+  const std::optional<size_t> found = FindPhotograph(name, NamesOf(scene.photographs));
+  return found ? &scene.photographs[*found] : nullptr;
 }
 
 // STEM_N.ext for N from `first` as long as there are any.
@@ -59,7 +54,7 @@ std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
   for (const Registration& registration : registrations) {
     if (registration.verdict == Verdict::kRejected) continue;
     if (registration.verdict == Verdict::kReview && accepted_only) continue;
-    const Photograph* photograph = FindPhotograph(scene, registration.name);
+    const Photograph* photograph = FindInScene(scene, registration.name);
     if (!photograph) continue;
     selected.push_back(MakeBakePhotograph(*photograph, registration.CorrectedCamera()));
     if (registration.verdict == Verdict::kReview) selected.back().weight = kReviewWeight;
@@ -71,7 +66,7 @@ std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
                                               const std::vector<NamedCamera>& cameras) {
   std::vector<BakePhotograph> selected;
   for (const NamedCamera& camera : cameras) {
-    const Photograph* photograph = FindPhotograph(scene, camera.name);
+    const Photograph* photograph = FindInScene(scene, camera.name);
     if (photograph) selected.push_back(MakeBakePhotograph(*photograph, camera.camera));
   }
   if (selected.empty()) {

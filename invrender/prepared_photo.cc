@@ -5,6 +5,7 @@
 #include "invrender/border_distance.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
+#include "scene/ignore_mask.h"
 #include "scene/image_io.h"
 
 #include <algorithm>
@@ -71,15 +72,10 @@ Image8 FindIgnored(const BakePhotograph& photograph,
     });
   }
   if (photograph.mask_file) {
-    const Image16 mask = ReadLabels(*photograph.mask_file);
-    CheckSize(*photograph.mask_file, mask.width, mask.height, photograph.camera);
-    if (ignored.Empty()) ignored = Image8(mask.width, mask.height, 1);
-    // White may be 255 or 65535, and anything brighter than the middle is white.
-    const uint16_t top = *std::max_element(mask.values.begin(), mask.values.end());
-    const int threshold = top > 255 ? 32768 : 128;
-    for (size_t i = 0; i < mask.values.size(); ++i) {
-      if (mask.values[i] >= threshold) ignored.values[i] = 255;
-    }
+    const Image8 mask = ReadIgnoreMask(*photograph.mask_file,
+                                       {photograph.camera.width_px, photograph.camera.height_px});
+    if (ignored.Empty()) return mask;
+    for (size_t i = 0; i < mask.values.size(); ++i) ignored.values[i] |= mask.values[i];
   }
   return ignored;
 }

@@ -2,13 +2,14 @@
 // Part of Groundglass.
 #include "invrender/selection.h"
 
+#include "scene/csv.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
+#include "scene/image_kind.h"
 #include "scene/text.h"
+#include "scene/text_encoding.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -27,7 +28,14 @@ std::vector<int> FacesOfWord(const PolygonModel& model, const std::string& word)
   const auto first = ParseInteger(word.substr(0, dash));
   const auto last = dash == std::string::npos ? first : ParseInteger(word.substr(dash + 1));
   if (!first || !last || *first < 1 || *last < *first || *last > HighestFaceNumber(model)) {
-    return {};
+    // A name as another program or keyboard writes it.
+    const std::string folded = FoldedName(word);
+    for (size_t face = 0; face < model.faces.size(); ++face) {
+      if (!folded.empty() && FoldedName(model.faces[face].name) == folded) {
+        found.push_back(static_cast<int>(face));
+      }
+    }
+    return found;
   }
   for (int face = 0; face < static_cast<int>(model.faces.size()); ++face) {
     const int number = FaceNumber(model, face);
@@ -46,10 +54,6 @@ std::string NoSuchFace(const PolygonModel& model, const std::string& word) {
          std::to_string(HighestFaceNumber(model)) + ", and names";
 }
 
-bool IsCalled(const BakePhotograph& photograph, const std::string& name) {
-  return photograph.name == name || photograph.image_file.filename() == name;
-}
-
 }  // namespace
 
 std::vector<int> FindFaces(const PolygonModel& model, const std::vector<std::string>& words) {
@@ -64,23 +68,33 @@ std::vector<int> FindFaces(const PolygonModel& model, const std::vector<std::str
 
 void ExcludePhotographs(const std::vector<std::string>& names,
                         std::vector<BakePhotograph>& photographs) {
+  std::vector<char> is_excluded(photographs.size(), 0);
   for (const std::string& name : names) {
-    const size_t num_left = std::erase_if(
-        photographs, [&](const BakePhotograph& photograph) { return IsCalled(photograph, name); });
-    if (num_left == 0) throw Error("no photograph to exclude is called " + Quote(name));
+    const std::optional<size_t> found = FindPhotograph(name, NamesOf(photographs));
+    if (!found) throw Error("no photograph to exclude is called " + Quote(name));
+    is_excluded[*found] = 1;
   }
+  size_t next = 0;
+  std::erase_if(photographs, [&](const BakePhotograph&) { return is_excluded[next++] != 0; });
 }
 
 void UseMasks(const std::filesystem::path& folder, std::vector<BakePhotograph>& photographs) {
+  std::vector<std::string> stems;
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& file : ListImageFiles(folder)) {
+    stems.push_back(ImageStem(file));
+    files.push_back(file);
+  }
+  for (size_t i = 1; i < stems.size(); ++i) {
+    if (stems[i] == stems[i - 1])
+      throw Error(files[i], "two masks have the stem " + Quote(stems[i]));
+  }
+  const std::vector<std::optional<size_t>> matches = MatchPhotographs(stems, NamesOf(photographs));
   bool is_any = false;
-  for (BakePhotograph& photograph : photographs) {
-    for (const char* extension : {".png", ".tif", ".tiff", ".jpg"}) {
-      const std::filesystem::path file = folder / (photograph.name + extension);
-      if (!std::filesystem::exists(file)) continue;
-      photograph.mask_file = file;
-      is_any = true;
-      break;
-    }
+  for (size_t i = 0; i < files.size(); ++i) {
+    if (!matches[i]) continue;
+    photographs[*matches[i]].mask_file = files[i];
+    is_any = true;
   }
   if (!is_any) throw Error(folder, "expected masks named after the photographs, as s5.png");
 }
@@ -98,43 +112,50 @@ void RestrictToFaces(const PolygonModel& model,
 
 void RestrictToPairs(const std::filesystem::path& file,
                      const PolygonModel& model,
-                     std::vector<BakePhotograph>& photographs) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(file, "cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  std::map<int, std::set<std::string>> names_of_face;
-  bool has_header = false;
-  for (const TextLine& line : SplitLines(text)) {
-    std::string_view row = std::string_view(text).substr(line.offset, line.size);
-    row = TrimBlanks(row.substr(0, row.find('%')));
-    if (row.empty()) continue;
-    const std::string place = file.string() + ":" + std::to_string(line.number);
-    const size_t comma = row.find(',');
-    if (comma == std::string_view::npos) throw Error(place + ": expected image,face");
-    const std::string image(TrimBlanks(row.substr(0, comma)));
-    const std::string word(TrimBlanks(row.substr(comma + 1)));
-    if (!has_header) {
-      if (LowerCase(image) != "image" || LowerCase(word) != "face") {
-        throw Error(place + ": expected the first line to be image,face");
-      }
-      has_header = true;
-      continue;
-    }
-    const std::vector<int> faces = FacesOfWord(model, word);
-    if (faces.empty()) throw Error(place + ": " + NoSuchFace(model, word));
-    for (const int face : faces) names_of_face[face].insert(image);
+                     std::vector<BakePhotograph>& photographs,
+                     std::span<const PhotographName> known) {
+  const CsvTable table(file);
+  const std::vector<std::string>& header = table.header();
+  const auto column = [&](const char* name) {
+    return static_cast<size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  };
+  const size_t image_column = column("image");
+  const size_t face_column = column("face");
+  if (header.size() != 2 || image_column == 2 || face_column == 2) {
+    throw Error(file, std::max(1, table.header_line()), "expected the first line to be image,face");
   }
-  for (BakePhotograph& photograph : photographs) {
+  const std::vector<PhotographName> names = NamesOf(photographs);
+  std::map<int, std::set<size_t>> photographs_of_face;
+  for (const CsvRow& row : table.rows()) {
+    const std::string& image = row.fields[image_column];
+    const std::vector<int> faces = FacesOfWord(model, row.fields[face_column]);
+    if (faces.empty()) {
+      throw Error(file, row.line, NoSuchFace(model, row.fields[face_column]));
+    }
+    std::optional<size_t> photograph;
+    try {
+      photograph = FindPhotograph(image, names);
+      if (!photograph && !known.empty() && !FindPhotograph(image, known)) {
+        throw Error("no photograph is called " + Quote(image) + NearestName(image, known));
+      }
+    } catch (const Error& error) {
+      throw Error(file, row.line, error.what());
+    }
+    // One that is not textured from, after its verdict, still keeps others off its face.
+    for (const int face : faces) {
+      photographs_of_face[face];
+      if (photograph) photographs_of_face[face].insert(*photograph);
+    }
+  }
+  for (size_t i = 0; i < photographs.size(); ++i) {
+    BakePhotograph& photograph = photographs[i];
     if (!photograph.faces) {
       photograph.faces.emplace(model.faces.size());
       std::iota(photograph.faces->begin(), photograph.faces->end(), 0);
     }
     std::erase_if(*photograph.faces, [&](int face) {
-      const auto names = names_of_face.find(face);
-      if (names == names_of_face.end()) return false;
-      return std::none_of(names->second.begin(), names->second.end(), [&](const std::string& name) {
-        return IsCalled(photograph, name);
-      });
+      const auto paired = photographs_of_face.find(face);
+      return paired != photographs_of_face.end() && paired->second.count(i) == 0;
     });
   }
 }

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "invrender/invrender.h"
+#include "scene/photograph_name.h"
 #include "scene/polygon_model.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,12 +17,13 @@ namespace groundglass {
 // of them ("3-7"), and names, which several faces may share. Throws Error for what is none.
 std::vector<int> FindFaces(const PolygonModel& model, const std::vector<std::string>& words);
 
-// Leaves these photographs out. Throws Error for a name that none has.
+// Leaves these photographs out, called as FindPhotograph knows them. Throws Error for a name that
+// none has.
 void ExcludePhotographs(const std::vector<std::string>& names,
                         std::vector<BakePhotograph>& photographs);
 
-// Takes the masks (white = ignore) from this folder, NAME.png or another image; photographs without
-// one there keep their own. Throws Error if the folder has none for any of them.
+// Takes the masks (white = ignore) from this folder, NAME.png or any other image; photographs
+// without one there keep their own. Throws Error if the folder has none for any of them.
 void UseMasks(const std::filesystem::path& folder, std::vector<BakePhotograph>& photographs);
 
 // Photographs texture these faces only.
@@ -30,9 +33,12 @@ void RestrictToFaces(const PolygonModel& model,
 
 // Reads pairs.csv (`image,face` on its first line; then an image's name and a face's number or name
 // on each). A face that the table names is textured only by the photographs paired with it; one
-// that it does not name, by all. Throws Error naming the line at fault.
+// that it does not name, by all. Throws Error naming the line at fault; a photograph that is
+// neither among these nor among `known` (all of the scene's, whatever their verdict) is one, if
+// those are given.
 void RestrictToPairs(const std::filesystem::path& file,
                      const PolygonModel& model,
-                     std::vector<BakePhotograph>& photographs);
+                     std::vector<BakePhotograph>& photographs,
+                     std::span<const PhotographName> known = {});
 
 }  // namespace groundglass

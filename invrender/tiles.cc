@@ -4,6 +4,7 @@
 
 #include "scene/error.h"
 #include "scene/face_number.h"
+#include "scene/ignore_mask.h"
 #include "scene/image_io.h"
 #include "scene/srgb.h"
 
@@ -44,11 +45,12 @@ void CheckSize(const std::filesystem::path& file, int width, int height, const C
 }
 
 // One value for each block of pixels: the one that they all have, else `mixed`.
-Image16 Unanimous(const Image16& fine, int side, uint16_t mixed) {
-  Image16 coarse(fine.width / side, fine.height / side, 1);
+template <typename Code>
+Raster<Code> Unanimous(const Raster<Code>& fine, int side, Code mixed) {
+  Raster<Code> coarse(fine.width / side, fine.height / side, 1);
   for (int y = 0; y < coarse.height; ++y) {
     for (int x = 0; x < coarse.width; ++x) {
-      const uint16_t first = *fine.At(side * x, side * y);
+      const Code first = *fine.At(side * x, side * y);
       bool agree = true;
       for (int i = 0; i < side * side; ++i) {
         agree = agree && *fine.At(side * x + i % side, side * y + i / side) == first;
@@ -68,18 +70,15 @@ Image16 MakeTileLabels(const PolygonModel& model,
   if (photograph.faces_file) {
     const Image16 painted = ReadLabels(*photograph.faces_file);
     CheckSize(*photograph.faces_file, painted.width, painted.height, photograph.camera);
-    labels = Unanimous(LabelsFromNumbers(model, painted, *photograph.faces_file), side, 0);
+    labels =
+        Unanimous(LabelsFromNumbers(model, painted, *photograph.faces_file), side, uint16_t{0});
   } else {
     labels = MakeFaceMask(model, visibility, CoarserCamera(photograph.camera, side));
   }
   if (photograph.mask_file) {
-    Image16 mask = ReadLabels(*photograph.mask_file);
-    CheckSize(*photograph.mask_file, mask.width, mask.height, photograph.camera);
-    // White may be 255 or 65535, and anything brighter than the middle is white.
-    const uint16_t top = *std::max_element(mask.values.begin(), mask.values.end());
-    const int threshold = top > 255 ? 32768 : 128;
-    for (uint16_t& value : mask.values) value = value >= threshold ? 1 : 0;
-    const Image16 ignored = Unanimous(mask, side, 1);
+    const Image8 mask = ReadIgnoreMask(*photograph.mask_file,
+                                       {photograph.camera.width_px, photograph.camera.height_px});
+    const Image8 ignored = Unanimous(mask, side, uint8_t{255});
     for (size_t i = 0; i < labels.values.size(); ++i) {
       if (ignored.values[i] != 0) labels.values[i] = 0;
     }

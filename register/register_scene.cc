@@ -3,7 +3,8 @@
 #include "register/register_scene.h"
 
 #include "register/refine_accepted.h"
-#include "scene/error.h"
+#include "register/select_photographs.h"
+#include "scene/ignore_mask.h"
 #include "scene/image_io.h"
 
 #include <tbb/parallel_for.h>
@@ -13,27 +14,23 @@
 namespace groundglass {
 namespace {
 
-// The photograph's mask as registration takes it, 1 channel; empty if there is none.
-Image8 ReadIgnoreMask(const Photograph& photograph) {
-  if (!photograph.mask_file) return {};
-  const Image16 codes = ReadLabels(*photograph.mask_file);
-  if (codes.width != photograph.size.width || codes.height != photograph.size.height) {
-    throw Error(*photograph.mask_file,
-                "mask is " + std::to_string(codes.width) + "x" + std::to_string(codes.height) +
-                    ", but its photograph is " + std::to_string(photograph.size.width) + "x" +
-                    std::to_string(photograph.size.height));
+// The options with photographs called as the scene calls them.
+RegisterOptions NamedAsInScene(RegisterOptions options, const Scene& scene) {
+  for (std::string& name : options.overrule.accept) name = NameInScene(name, scene);
+  for (std::string& name : options.overrule.reject) name = NameInScene(name, scene);
+  for (ControlPoint& point : options.control_points) {
+    point.photograph = NameInScene(point.photograph, scene);
   }
-  Image8 ignore(codes.width, codes.height, 1);
-  for (size_t i = 0; i < codes.values.size(); ++i) ignore.values[i] = codes.values[i] >= 128;
-  return ignore;
+  return options;
 }
 
 }  // namespace
 
 RegisteredScene RegisterScene(const Scene& scene,
                               const std::optional<Lens>& lens,
-                              const RegisterOptions& options,
+                              const RegisterOptions& given_options,
                               const Progress& progress) {
+  const RegisterOptions options = NamedAsInScene(given_options, scene);
   options.Check();
   const EdgeModel edge_model(scene.model);
   const int total = static_cast<int>(scene.photographs.size());
@@ -42,13 +39,14 @@ RegisteredScene RegisterScene(const Scene& scene,
   int done = 0;
   tbb::parallel_for(0, total, [&](int index) {
     const Photograph& photograph = scene.photographs[index];
-    alignments[index] = AlignPhotograph(photograph.name,
-                                        ReadGrey8(photograph.image_file),
-                                        ReadIgnoreMask(photograph),
-                                        photograph.tag,
-                                        lens,
-                                        edge_model,
-                                        options);
+    alignments[index] = AlignPhotograph(
+        photograph.name,
+        ReadGrey8(photograph.image_file),
+        photograph.mask_file ? ReadIgnoreMask(*photograph.mask_file, photograph.size) : Image8(),
+        photograph.tag,
+        lens,
+        edge_model,
+        options);
     const std::lock_guard lock(mutex);
     ++done;
     if (progress) {

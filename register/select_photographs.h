@@ -9,11 +9,16 @@
 
 namespace groundglass {
 
+// Photographs are called by name or file, as scene/photograph_name.h finds them.
+
 // Throws Error if the scene has no photograph of one of these names, with the names there are.
 // place: where the names stand, for the message ("option --only").
 void RequirePhotographs(const Scene& scene,
                         const std::vector<std::string>& names,
                         const std::string& place);
+
+// The photograph's name as the scene has it; as it is, if the scene has none such.
+std::string NameInScene(const std::string& name, const Scene& scene);
 
 // Leaves only these photographs in the scene, in the scene's order; all if none is named.
 void KeepPhotographs(const std::vector<std::string>& names, Scene& scene);

@@ -8,6 +8,7 @@
 #include "scene/image_io.h"
 #include "scene/image_paths.h"
 #include "scene/osu_io.h"
+#include "scene/photograph_name.h"
 #include "scene/scene_folder.h"
 #include "scene/text.h"
 #include "scene/textured_model_io.h"
@@ -94,11 +95,11 @@ ConvertResult ConvertViewsToColmap(const fs::path& input,
   if (!fs::is_directory(images, error)) {
     throw Error(images, "no such folder of images, which tell the photographs' sizes");
   }
-  const std::vector<std::string> image_paths = ListFilesBelow(images);
-  const std::vector<std::string> image_names = NamePhotographs(image_paths);
-  std::map<std::string, std::string> path_of_name;
+  const std::vector<std::string> image_paths = ListImagePaths(images);
+  const std::vector<std::string> names = NamePhotographs(image_paths);
+  std::vector<PhotographName> image_names;
   for (size_t i = 0; i < image_paths.size(); ++i) {
-    path_of_name.emplace(image_names[i], image_paths[i]);
+    image_names.push_back({names[i], image_paths[i]});
   }
   std::vector<fs::path> views;
   for (const fs::directory_entry& entry : fs::directory_iterator(input)) {
@@ -110,13 +111,13 @@ ConvertResult ConvertViewsToColmap(const fs::path& input,
   std::vector<NamedCamera> cameras;
   for (const fs::path& view : views) {
     const ViewTag tag = ReadView(view);
-    const auto image = path_of_name.find(view.stem().string());
-    if (image == path_of_name.end()) {
+    const std::optional<size_t> found = FindPhotograph(view.stem().string(), image_names);
+    if (!found) {
       result.warnings.push_back(Error(view, "left out, since it has no image").what());
       continue;
     }
-    const ImageSize size = ReadImageSize(images / image->second);
-    cameras.push_back({image->second, CameraFromTag(tag, size.width, size.height)});
+    const ImageSize size = ReadImageSize(images / image_paths[*found]);
+    cameras.push_back({image_paths[*found], CameraFromTag(tag, size.width, size.height)});
   }
   if (cameras.empty()) throw Error(input, "no view file here has an image");
   WriteColmapModel(output, cameras);

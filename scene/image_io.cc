@@ -2,181 +2,15 @@
 // Part of Groundglass.
 #include "scene/image_io.h"
 
-#include "scene/colour_profile.h"
 #include "scene/error.h"
+#include "scene/open_image.h"
 #include "scene/srgb.h"
-#include "scene/text.h"
-
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
-#include <fstream>
-#include <memory>
-#include <optional>
 
 namespace groundglass {
 namespace {
-
-// An image of either side longer than this is a damaged header, not a photograph.
-constexpr int kLongestSide = 1 << 17;
-constexpr double kMostPixels = 4e9;
-
-// Where an oriented pixel comes from in the file's raster (EXIF's eight orientations).
-struct Orientation {
-  bool swaps_sides = false;
-  bool flips_x = false;  // of the file's columns
-  bool flips_y = false;
-};
-
-Orientation OrientationFromExif(int code) {
-  switch (code) {
-    case 2:
-      return {false, true, false};
-    case 3:
-      return {false, true, true};
-    case 4:
-      return {false, false, true};
-    case 5:
-      return {true, false, false};
-    case 6:
-      return {true, false, true};
-    case 7:
-      return {true, true, true};
-    case 8:
-      return {true, true, false};
-    default:
-      return {};
-  }
-}
-
-template <typename T>
-Raster<T> Oriented(Raster<T> stored, int exif_code) {
-  const Orientation orientation = OrientationFromExif(exif_code);
-  if (!orientation.swaps_sides && !orientation.flips_x && !orientation.flips_y) return stored;
-  const int width = orientation.swaps_sides ? stored.height : stored.width;
-  const int height = orientation.swaps_sides ? stored.width : stored.height;
-  Raster<T> oriented(width, height, stored.channels);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      int from_x = orientation.swaps_sides ? y : x;
-      int from_y = orientation.swaps_sides ? x : y;
-      if (orientation.flips_x) from_x = stored.width - 1 - from_x;
-      if (orientation.flips_y) from_y = stored.height - 1 - from_y;
-      std::copy_n(stored.At(from_x, from_y), stored.channels, oriented.At(x, y));
-    }
-  }
-  return oriented;
-}
-
-// A photograph file that is open, its header read and believable.
-class OpenImage {
- public:
-  explicit OpenImage(const std::filesystem::path& file, OIIO::Filesystem::IOProxy* proxy = nullptr)
-      : file_(file) {
-    std::error_code error;
-    if (proxy == nullptr && !std::filesystem::is_regular_file(file, error)) {
-      throw Error(file, "no such image file");
-    }
-    OIIO::ImageSpec config;
-    // Colours as they are stored, not multiplied by the alpha that is going to be dropped.
-    config["oiio:UnassociatedAlpha"] = 1;
-    // OpenImageIO 2.4 forgets the proxy argument when there is a configuration.
-    if (proxy != nullptr) config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    input_ = OIIO::ImageInput::open(file.string(), &config, proxy);
-    if (!input_) {
-      throw Error(file, "cannot read this as an image: " + OneLine(OIIO::geterror()));
-    }
-    const OIIO::ImageSpec& spec = input_->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.width > kLongestSide ||
-        spec.height > kLongestSide ||
-        static_cast<double>(spec.width) * spec.height * spec.nchannels > kMostPixels) {
-      throw Error(file,
-                  "cannot read this as an image: its header gives a size of " +
-                      std::to_string(spec.width) + " x " + std::to_string(spec.height) + " x " +
-                      std::to_string(spec.nchannels));
-    }
-  }
-
-  const OIIO::ImageSpec& spec() const { return input_->spec(); }
-  int ExifOrientation() const { return spec().get_int_attribute("Orientation", 1); }
-
-  // True if the stored values are linear light rather than sRGB codes.
-  bool IsLinear() const {
-    const std::string space = spec().get_string_attribute("oiio:ColorSpace");
-    if (space == "Linear" || space == "scene_linear") return true;
-    return spec().format.is_floating_point() && space != "sRGB";
-  }
-
-  // What its codes mean, if the file says so and they are not sRGB's.
-  std::optional<ColourProfile> Profile() const {
-    const OIIO::ParamValue* icc = spec().find_attribute("ICCProfile");
-    if (!icc || icc->type().basetype != OIIO::TypeDesc::UINT8) return std::nullopt;
-    ColourProfile profile({static_cast<const uint8_t*>(icc->data()), icc->type().size()},
-                          spec().nchannels < 3,
-                          file_);
-    if (profile.IsSrgb()) return std::nullopt;
-    return profile;
-  }
-
-  // All channels as the file has them, not yet oriented.
-  template <typename T>
-  Raster<T> Read(OIIO::TypeDesc type) {
-    Raster<T> stored(spec().width, spec().height, spec().nchannels);
-    if (!input_->read_image(0, 0, 0, -1, type, stored.values.data()) || input_->has_error()) {
-      throw Error(file_, "this image is damaged: " + OneLine(input_->geterror()));
-    }
-    return stored;
-  }
-
-  // The three channels that make its colour; grey is repeated.
-  std::array<int, 3> ColourChannels() const {
-    const int channels = spec().nchannels;
-    if (channels < 3) return {0, 0, 0};
-    const int red = spec().channelindex("R");
-    const int green = spec().channelindex("G");
-    const int blue = spec().channelindex("B");
-    if (red >= 0 && green >= 0 && blue >= 0) return {red, green, blue};
-    return {0, 1, 2};
-  }
-
- private:
-  std::filesystem::path file_;
-  std::unique_ptr<OIIO::ImageInput> input_;
-};
-
-// libjpeg fills what is missing of a truncated file with grey and says nothing, so look for the
-// end marker ourselves: past the headers, which may hold a whole thumbnail.
-void CheckJpegIsWhole(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in.tellg();
-  std::vector<unsigned char> bytes(std::max<std::streamoff>(size, 0));
-  in.seekg(0);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<size_t>(in.gcount()));
-  if (bytes.size() < 4 || bytes[0] != 0xFF || bytes[1] != 0xD8) return;  // not a JPEG
-  size_t at = 2;
-  while (at + 1 < bytes.size()) {
-    if (bytes[at] != 0xFF) {
-      ++at;  // entropy-coded data
-      continue;
-    }
-    const unsigned char marker = bytes[at + 1];
-    if (marker == 0xD9) return;
-    const bool is_bare =
-        marker == 0x00 || marker == 0x01 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD8);
-    if (is_bare) {
-      at += marker == 0xFF ? 1 : 2;
-      continue;
-    }
-    if (at + 3 >= bytes.size()) break;
-    at += 2 + (static_cast<size_t>(bytes[at + 2]) << 8 | bytes[at + 3]);
-  }
-  throw Error(file, "this image is damaged: the file ends before the picture does");
-}
 
 // Picks and repeats channels, then turns the picture upright.
 template <typename T>
@@ -195,10 +29,26 @@ Raster<T> ColourOf(OpenImage& image, Raster<T> stored) {
   return Oriented(std::move(colour), image.ExifOrientation());
 }
 
+template <typename T>
+Raster<T> FirstChannels(Raster<T> stored, int channels) {
+  if (stored.channels == channels) return stored;
+  Raster<T> fewer(stored.width, stored.height, channels);
+  const size_t pixels = static_cast<size_t>(stored.width) * stored.height;
+  for (size_t i = 0; i < pixels; ++i) {
+    std::copy_n(&stored.values[i * stored.channels], channels, &fewer.values[i * channels]);
+  }
+  return fewer;
+}
+
 // sRGB codes of 8 or 16 bits.
 template <typename Code>
 Raster<Code> ReadCodes(OpenImage& image, OIIO::TypeDesc type) {
   const std::optional<ColourProfile> profile = image.Profile();
+  if (image.HasInks()) {
+    Raster<Code> inks = FirstChannels(image.Read<Code>(type), 4);
+    profile ? profile->ToSrgb(inks) : InksToSrgb(inks);
+    return Oriented(std::move(inks), image.ExifOrientation());
+  }
   Raster<Code> codes = ColourOf(image, image.Read<Code>(type));
   if (profile) profile->ToSrgb(codes);
   return codes;
@@ -224,10 +74,7 @@ Image8 ReadOpenSrgb8(OpenImage& image) {
   return ReadCodes<uint8_t>(image, OIIO::TypeUInt8);
 }
 
-}  // namespace
-
-ImageSize ReadImageSize(const std::filesystem::path& file) {
-  const OpenImage image(file);
+ImageSize SizeOf(const OpenImage& image) {
   const int orientation = image.ExifOrientation();
   const int width = image.spec().width;
   const int height = image.spec().height;
@@ -235,9 +82,24 @@ ImageSize ReadImageSize(const std::filesystem::path& file) {
                                                       : ImageSize{width, height, orientation};
 }
 
+}  // namespace
+
+ImageSize ReadImageSize(const std::filesystem::path& file) { return SizeOf(OpenImage(file)); }
+
+ImageInspection InspectImage(const std::filesystem::path& file) {
+  OpenImage image(file);
+  image.CheckIsWhole();
+  image.Profile();  // throws for one that is damaged
+  ImageInspection inspection{SizeOf(image), {}};
+  for (const std::string& warning : image.warnings()) {
+    inspection.warnings.push_back(Error(file, warning).what());
+  }
+  return inspection;
+}
+
 ImageF ReadRadiance(const std::filesystem::path& file) {
   OpenImage image(file);
-  CheckJpegIsWhole(file);
+  image.CheckIsWhole();
   if (image.IsLinear()) {
     return ReadOpenRadiance(image);
   }
@@ -265,13 +127,13 @@ ImageF ReadRadiance(const std::filesystem::path& file) {
 
 Image8 ReadSrgb8(const std::filesystem::path& file) {
   OpenImage image(file);
-  CheckJpegIsWhole(file);
+  image.CheckIsWhole();
   return ReadOpenSrgb8(image);
 }
 
 Image16 ReadSrgb16(const std::filesystem::path& file) {
   OpenImage image(file);
-  CheckJpegIsWhole(file);
+  image.CheckIsWhole();
   if (!image.IsLinear()) return ReadCodes<uint16_t>(image, OIIO::TypeUInt16);
   const ImageF radiance = ReadOpenRadiance(image);
   Image16 srgb16(radiance.width, radiance.height, 3);
@@ -295,7 +157,7 @@ Image8 ReadGrey8(const std::filesystem::path& file) {
 
 Image16 ReadLabels(const std::filesystem::path& file) {
   OpenImage image(file);
-  CheckJpegIsWhole(file);
+  image.CheckIsWhole();
   Image16 labels(image.spec().width, image.spec().height, 1);
   const int channels = image.spec().nchannels;
   // Read in the file's own width: a conversion would scale the codes.
@@ -314,8 +176,7 @@ Image16 ReadLabels(const std::filesystem::path& file) {
 }
 
 Image8 DecodeSrgb8(const std::vector<uint8_t>& bytes, const std::string& extension) {
-  OIIO::Filesystem::IOMemReader proxy(const_cast<uint8_t*>(bytes.data()), bytes.size());
-  OpenImage image("image" + extension, &proxy);
+  OpenImage image(bytes, "image" + extension);
   return ReadOpenSrgb8(image);
 }
 

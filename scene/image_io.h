@@ -16,12 +16,25 @@ struct ImageSize {
   int orientation = 1;  // EXIF's, from 1 to 8; heeded in width and height
 };
 
-// All readers apply the file's orientation, and throw Error naming the file if it is missing,
-// damaged, or not an image. 8- and 16-bit, half and float; JPEG, PNG, TIFF, EXR. Those that give
-// colours heed the file's ICC profile, and throw Error for one that is damaged or does not fit.
+// All readers take whatever OpenImageIO reads, told by the file's content and not by its name:
+// JPEG, PNG, TIFF, OpenEXR, HEIF, WebP, JPEG 2000, BMP, PPM, Targa, Photoshop, camera raw ...; 8
+// and 16 bits, half and float; of several pages the largest. They apply the file's orientation, and
+// throw Error naming the file if it is missing, damaged, or no image. Those that give colours heed
+// the file's ICC profile, four inks (CMYK) included, and throw Error for one that is damaged or
+// does not fit.
 
 // Size only, without decoding the pixels; orientation applied.
 ImageSize ReadImageSize(const std::filesystem::path& file);
+
+// The size, and one line for everything that a person should know of how the file is taken: its
+// second page, inks without a profile, a JPEG without its end mark. Throws Error for one that is
+// cut (only JPEGs are looked at so closely before their pixels are read).
+struct ImageInspection {
+  ImageSize size;
+  std::vector<std::string> warnings;  // each begins with the file's name
+};
+ImageInspection InspectImage(const std::filesystem::path& file);
+
 // Linear light, 3 channels; an alpha channel is dropped, grey is repeated.
 ImageF ReadRadiance(const std::filesystem::path& file);
 // 8-bit sRGB, 3 channels.
@@ -30,7 +43,8 @@ Image8 ReadSrgb8(const std::filesystem::path& file);
 Image16 ReadSrgb16(const std::filesystem::path& file);
 // 8-bit sRGB grey (Rec. 709 luma of the encoded values), 1 channel: what edges are sought in.
 Image8 ReadGrey8(const std::filesystem::path& file);
-// Codes kept exactly, 1 channel (the first): face masks, occluder masks.
+// Codes kept exactly, 1 channel (the first): face masks. (ignore_mask.h has those of people and
+// trees.)
 Image16 ReadLabels(const std::filesystem::path& file);
 
 struct ImageWriteOptions {

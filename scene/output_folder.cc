@@ -28,7 +28,7 @@ std::string FormatManifest(const Manifest& manifest) {
                                        {"seed", manifest.seed},
                                        {"options", manifest.options},
                                        {"sha256_of_inputs", manifest.sha256_of_inputs}};
-  return json.dump(1) + "\n";
+  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string HashFile(const std::filesystem::path& file) {

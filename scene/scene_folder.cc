@@ -8,6 +8,7 @@
 #include "scene/image_paths.h"
 #include "scene/tags_csv.h"
 #include "scene/text.h"
+#include "scene/text_encoding.h"
 #include "scene/view_io.h"
 
 #include <tbb/parallel_for.h>
@@ -24,10 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 6> kModelExtensions = {
     ".osu", ".obj", ".ply", ".stl", ".glb", ".gltf"};
-constexpr std::array<std::string_view, 6> kImageExtensions = {
-    ".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr"};
 constexpr const char* kModelNames = "model.osu, .obj, .ply, .stl or .glb";
-constexpr const char* kImageNames = ".jpg, .png, .tif or .exr";
 
 template <size_t N>
 bool HasExtension(const fs::path& file, const std::array<std::string_view, N>& extensions) {
@@ -163,8 +161,20 @@ class SceneReader {
                     "two images have the stem " + Quote(place->first) + "; the other is " +
                         place->second.filename().string()));
       }
+      Fault(Error(file,
+                  "two images have the stem " + Quote(place->first) + "; the other is " +
+                      place->second.filename().string()));
     }
     return images;
+  }
+
+  // A name from a file's, which old archives may have in Latin-1.
+  std::string NameInUtf8(const fs::path& file, const std::string& name) {
+    const Utf8Text utf8 = Utf8FromBytes(name);
+    if (utf8.is_guessed) {
+      Warn(file, "its name is not UTF-8; it is taken as " + Quote(utf8.text) + ", rename it");
+    }
+    return utf8.text;
   }
 
   void ReadTags(const FilesByStem& images) {
@@ -191,7 +201,7 @@ class SceneReader {
           Warn(file, "not a view file; expected the extension .view");
           continue;
         }
-        const std::string name = file.stem().string();
+        const std::string name = NameInUtf8(file, file.stem().string());
         try {
           const std::string text = ReadTextFile(file);
           const std::vector<std::string> faults = FindViewFaults(text, file);
@@ -207,6 +217,8 @@ class SceneReader {
       try {
         const TagTable rows = ReadTagTable(table, result_.scene.model);
         result_.faults.insert(result_.faults.end(), rows.faults.begin(), rows.faults.end());
+        std::vector<std::string>& warnings = result_.scene.warnings;
+        warnings.insert(warnings.end(), rows.warnings.begin(), rows.warnings.end());
         for (const TagRow& row : rows.rows) {
           tags_[row.name] = {row.tag, {}};
           known_names_[row.name] = table;
@@ -265,21 +277,37 @@ class SceneReader {
   }
 
   void Match(const FilesByStem& images) {
+    std::vector<std::string> tag_names;
+    for (const auto& [name, file] : known_names_) tag_names.push_back(name);
+    std::vector<PhotographName> image_names;
     for (const auto& [name, file] : images) {
-      if (known_names_.count(name) > 0) continue;
+      image_names.push_back({name, file.filename().string()});
+    }
+    // An image is a tag's by its name, even if another program writes it in another way.
+    const std::vector<std::optional<size_t>> matches = MatchPhotographs(tag_names, image_names);
+    std::map<std::string, fs::path> image_of_tag;
+    std::vector<PhotographName> left;
+    for (size_t i = 0; i < image_names.size(); ++i) {
+      const auto tag = std::find(matches.begin(), matches.end(), i);
+      const std::string& name = image_names[i].name;
+      if (tag != matches.end()) {
+        image_of_tag[tag_names[static_cast<size_t>(tag - matches.begin())]] = images.at(name);
+        continue;
+      }
+      left.push_back(image_names[i]);
       const std::string expected =
           tags_place_.empty() ? "views/" + name + ".view" : tags_place_ + " for " + name;
-      Warn(file, "photograph without a tag; expected " + expected);
+      Warn(images.at(name), "photograph without a tag; expected " + expected);
     }
     for (const auto& [name, file] : known_names_) {
-      if (images.count(name) > 0) continue;
+      if (image_of_tag.count(name) > 0) continue;
       Warn(file,
            "tag of " + name + " without a photograph; expected images/" + name + " with " +
-               kImageNames);
+               kImageNames + NearestName(name, left));
     }
     for (const auto& [name, found] : tags_) {
-      const auto image = images.find(name);
-      if (image == images.end()) continue;
+      const auto image = image_of_tag.find(name);
+      if (image == image_of_tag.end()) continue;
       Photograph photograph;
       photograph.name = name;
       photograph.image_file = image->second;
@@ -290,6 +318,13 @@ class SceneReader {
       } catch (const Error& error) {
         Fault(error);
         continue;
+      }
+      try {
+        for (const std::string& warning : InspectImage(image->second).warnings) {
+          result_.scene.warnings.push_back(warning);
+        }
+      } catch (const Error&) {
+        // Reading its pixels says the same.
       }
       LookForOddities(photograph);
       result_.scene.photographs.push_back(std::move(photograph));
@@ -328,6 +363,8 @@ class SceneReader {
   }
 
   void AddMasks(const char* subfolder, std::optional<fs::path> Photograph::*member) {
+    std::vector<std::string> names;
+    std::vector<fs::path> files;
     for (const auto& [name, file] : ListImages(subfolder)) {
       const std::string place =
           WithoutExtension(file.lexically_relative(folder_ / subfolder).generic_string());
@@ -342,16 +379,10 @@ class SceneReader {
         Warn(file, "mask without a photograph; expected images/" + name + " with " + kImageNames);
         continue;
       }
+      Photograph& photograph = photographs[*matches[i]];
       try {
-        const ImageSize size = ReadImageSize(file);
-        if (size.width != photograph->size.width || size.height != photograph->size.height) {
-          throw Error(file,
-                      "mask has " + std::to_string(size.width) + " x " +
-                          std::to_string(size.height) + " pixels, its photograph " +
-                          std::to_string(photograph->size.width) + " x " +
-                          std::to_string(photograph->size.height));
-        }
-        (*photograph).*member = file;
+        CheckMaskSize(file, ReadImageSize(file), photograph.size);
+        photograph.*member = file;
       } catch (const Error& error) {
         Fault(error);
       }
@@ -373,7 +404,9 @@ class SceneReader {
       };
       const Photograph& photograph = photographs[i];
       attempt([&] { ReadSrgb8(photograph.image_file); });
-      if (photograph.mask_file) attempt([&] { ReadLabels(*photograph.mask_file); });
+      if (photograph.mask_file) {
+        attempt([&] { ReadIgnoreMask(*photograph.mask_file, photograph.size); });
+      }
       if (photograph.faces_file) {
         attempt([&] {
           const Image16 numbers = ReadLabels(*photograph.faces_file);

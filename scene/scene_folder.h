@@ -5,6 +5,7 @@
 #include "scene/image_io.h"
 #include "scene/model_io.h"
 #include "scene/polygon_model.h"
+#include "scene/text.h"
 #include "scene/view_tag.h"
 
 #include <filesystem>

@@ -2,8 +2,10 @@
 // Part of Groundglass.
 #include "scene/tags_csv.h"
 
+#include "scene/csv.h"
 #include "scene/error.h"
 #include "scene/frames.h"
+#include "scene/image_kind.h"
 #include "scene/text.h"
 #include "scene/view_io.h"
 
@@ -40,29 +42,6 @@ Eigen::Vector3d EarthCentred(double latitude_deg, double longitude_deg, double h
           (curvature * (1 - kEccentricity2) + height_m) * sin_latitude};
 }
 
-// The fields of one line; quotes hold a field together, and a doubled quote stands for itself.
-std::vector<std::string> SplitFields(std::string_view line) {
-  std::vector<std::string> fields(1);
-  bool in_quotes = false;
-  for (size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"') {
-      if (in_quotes && i + 1 < line.size() && line[i + 1] == '"') {
-        fields.back() += c;
-        ++i;
-      } else {
-        in_quotes = !in_quotes;
-      }
-    } else if (c == ',' && !in_quotes) {
-      fields.emplace_back();
-    } else {
-      fields.back() += c;
-    }
-  }
-  for (std::string& field : fields) field = std::string(TrimBlanks(field));
-  return fields;
-}
-
 // Reads the rows one by one, each by way of the view file that says the same.
 class TableReader {
  public:
@@ -70,18 +49,14 @@ class TableReader {
       : file_(file), model_(model), center_in_site_(SiteFromWorld(ComputeBounds(model).Center())) {}
 
   TagTable Read() {
-    const std::string text = ReadTextFile(file_);
-    for (const TextLine& line : SplitLines(text, '\0')) {
-      const std::string_view content = std::string_view(text).substr(line.offset, line.size);
-      if (TrimBlanks(content).empty()) continue;
-      if (columns_.empty()) {
-        if (!ReadHeader(line.number, content)) break;
-      } else {
-        ReadRow(line.number, content);
-      }
-    }
-    if (columns_.empty() && table_.faults.empty()) {
+    std::vector<std::string> faults;
+    const CsvTable csv(file_, &faults);
+    table_.warnings = csv.warnings();
+    if (csv.header().empty()) {
       table_.faults.push_back(Error(file_, "no header; expected image,x,y,z,i,j,k,a,v").what());
+    } else if (ReadHeader(csv.header_line(), csv.header())) {
+      table_.faults = std::move(faults);
+      for (const CsvRow& row : csv.rows()) ReadRow(csv, row);
     }
     return std::move(table_);
   }
@@ -93,11 +68,10 @@ class TableReader {
 
   bool Has(const std::string& column) const { return columns_.count(column) > 0; }
 
-  bool ReadHeader(int line, std::string_view content) {
-    const std::vector<std::string> names = SplitFields(content);
+  bool ReadHeader(int line, const std::vector<std::string>& names) {
     const size_t faults_before = table_.faults.size();
     for (size_t i = 0; i < names.size(); ++i) {
-      const std::string name = LowerCase(names[i]);
+      const std::string& name = names[i];
       const bool is_known =
           std::find(kTagKeyNames.begin(), kTagKeyNames.end(), name) != kTagKeyNames.end() ||
           std::find(kOtherColumns.begin(), kOtherColumns.end(), name) != kOtherColumns.end() ||
@@ -139,20 +113,17 @@ class TableReader {
     return table_.faults.size() == faults_before;
   }
 
-  void ReadRow(int line, std::string_view content) {
-    const std::vector<std::string> fields = SplitFields(content);
-    if (fields.size() != columns_.size()) {
-      Fail(line,
-           "has " + std::to_string(fields.size()) + " fields; the header has " +
-               std::to_string(columns_.size()));
-      return;
-    }
+  void ReadRow(const CsvTable& csv, const CsvRow& csv_row) {
+    const int line = csv_row.line;
+    const std::vector<std::string>& fields = csv_row.fields;
     const size_t faults_before = table_.faults.size();
     const auto number = [&](const std::string& column) {
       const std::string& field = fields[columns_.at(column)];
-      const std::optional<double> value = ParseNumber(field);
+      std::string why_not;
+      const std::optional<double> value = csv.Number(field, &why_not);
       if (value && std::isfinite(*value)) return *value;
-      Fail(line, "column " + Quote(column) + ": " + Quote(field) + " is not a finite number");
+      if (why_not.empty()) why_not = value ? "is not a finite number" : "is not a number";
+      Fail(line, "key " + Quote(column) + ": " + Quote(field) + " " + why_not);
       return 0.0;
     };
     const std::string& image = fields[columns_.at("image")];
@@ -161,12 +132,9 @@ class TableReader {
       return;
     }
     TagRow row;
+    row.line = line;
     // "s5.jpg" and "s5" both name s5; so does "images/s5.jpg".
-    const std::filesystem::path image_path(image);
-    const std::string extension = LowerCase(image_path.extension().string());
-    const bool has_extension = extension == ".jpg" || extension == ".jpeg" || extension == ".png" ||
-                               extension == ".tif" || extension == ".tiff" || extension == ".exr";
-    row.name = (has_extension ? image_path.stem() : image_path.filename()).string();
+    row.name = ImageStem(image);
     if (!names_.insert(row.name).second) {
       Fail(line, "photograph " + Quote(row.name) + " has a row already");
       return;
@@ -178,7 +146,8 @@ class TableReader {
           column == "lon" || column == "height" || fields[index].empty()) {
         continue;
       }
-      view_text += column + " " + fields[index] + " ";
+      view_text +=
+          column + " " + (column == "camera" ? fields[index] : FormatNumber(number(column))) + " ";
     }
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     if (is_geodetic_) {

@@ -11,9 +11,11 @@
 
 namespace groundglass {
 
-// One row of tags.csv: the photograph's stem and its tag.
+// One row of tags.csv: the photograph as the table calls it, without folder and an image's
+// extension, and its tag.
 struct TagRow {
   std::string name;
+  int line = 0;
   ViewTag tag;
 };
 
@@ -21,6 +23,7 @@ struct TagRow {
 struct TagTable {
   std::vector<TagRow> rows;
   std::vector<std::string> faults;
+  std::vector<std::string> warnings;
 };
 
 // Reads tags.csv (docs/scene-folder.md): a view file's keys as columns; `yaw,pitch` may stand for

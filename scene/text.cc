@@ -111,6 +111,34 @@ std::string Quote(std::string_view word) {
   return quoted + "'";
 }
 
+bool NaturalLess(const std::string& a, const std::string& b) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  size_t i = 0;
+  size_t k = 0;
+  while (i < a.size() && k < b.size()) {
+    if (!is_digit(a[i]) || !is_digit(b[k])) {
+      if (a[i] != b[k]) return a[i] < b[k];
+      ++i;
+      ++k;
+      continue;
+    }
+    // Compare two numbers of any length: without leading zeros the longer one is greater.
+    size_t i_end = i;
+    size_t k_end = k;
+    while (i_end < a.size() && is_digit(a[i_end])) ++i_end;
+    while (k_end < b.size() && is_digit(b[k_end])) ++k_end;
+    while (i + 1 < i_end && a[i] == '0') ++i;
+    while (k + 1 < k_end && b[k] == '0') ++k;
+    if (i_end - i != k_end - k) return i_end - i < k_end - k;
+    const int order = a.compare(i, i_end - i, b, k, k_end - k);
+    if (order != 0) return order < 0;
+    i = i_end;
+    k = k_end;
+  }
+  if (i < a.size() || k < b.size()) return k < b.size();
+  return a < b;  // "s01" and "s1" differ only in zeros
+}
+
 std::string OneLine(std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   while (!message.empty() && message.back() == ' ') message.pop_back();

@@ -44,6 +44,9 @@ std::string Quote(std::string_view word);
 std::string_view TrimBlanks(std::string_view text);
 std::string LowerCase(std::string_view text);
 
+// "s2" < "s10": runs of digits compare as numbers.
+bool NaturalLess(const std::string& a, const std::string& b);
+
 // A library's message on one line, without its end of line.
 std::string OneLine(std::string message);
 

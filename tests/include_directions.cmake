@@ -36,7 +36,7 @@ set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI
     nlohmann openssl tbb stb sys)
 set(owners_Eigen "\\.(h|cc)$")
 set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|datasets-synthetic)/.*\\.cc$")
-set(owners_OpenImageIO "^(scene/image_(io|write)|invrender/.*)\\.cc$")
+set(owners_OpenImageIO "^(scene/(image_(io|write|kind)|open_image|ignore_mask)|invrender/.*)\\.cc$")
 set(owners_embree3 "^scene/visibility\\.cc$")
 set(owners_ceres "^(calibrate|register|invrender)/.*\\.cc$")
 set(owners_apriltag "^calibrate/.*\\.cc$")
@@ -49,8 +49,13 @@ set(owners_tbb "\\.cc$")
 set(owners_stb "\\.cc$")
 set(owners_sys "\\.cc$")
 # The same for headers without a folder; any other such header is C++'s or the system's.
-set(bare_third_parties tiny_gltf.h stb_image.h stb_image_write.h)
+set(bare_third_parties tiny_gltf.h stb_image.h stb_image_write.h jpeglib.h jerror.h utf8proc.h
+    lcms2.h)
 set(owners_tiny_gltf.h "^scene/(gltf_read|gltf_write|own_tiny_gltf|.*_io)\\.cc$")
+set(owners_jpeglib.h "^scene/jpeg_file\\.cc$")
+set(owners_jerror.h "^scene/jpeg_file\\.cc$")
+set(owners_utf8proc.h "^scene/text_encoding\\.cc$")
+set(owners_lcms2.h "^scene/colour_profile\\.cc$")
 set(owners_stb_image.h "^NOBODY$")        # OpenImageIO reads and writes images
 set(owners_stb_image_write.h "^NOBODY$")
 

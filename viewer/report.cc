@@ -7,6 +7,7 @@
 #include "scene/feature_edges.h"
 #include "scene/image_io.h"
 #include "scene/model_sigma.h"
+#include "scene/image_kind.h"
 #include "scene/registration_io.h"
 #include "scene/view_io.h"
 #include "scene/visibility.h"
@@ -146,7 +147,7 @@ class Report {
     if (fs::is_directory(folder_ / "renders")) {
       for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "renders")) {
         const std::string extension = entry.path().extension().string();
-        if (extension == ".jpg" || extension == ".png") pictures.push_back(entry.path());
+        if (IsImageExtension(extension)) pictures.push_back(entry.path());
         if (extension == ".mp4") films.push_back(entry.path());
       }
     }

@@ -81,7 +81,8 @@ TEST(RestrictToPairs, FaultsNameTheirLine) {
     return ThrownMessage([&] { RestrictToPairs(folder / "pairs.csv", model, photographs); });
   };
   EXPECT_THAT(message("s1,1\n"), HasSubstr("pairs.csv:1: expected the first line"));
-  EXPECT_THAT(message("image,face\ns1\n"), HasSubstr("pairs.csv:2: expected image,face"));
+  EXPECT_THAT(message("image,face\ns1\n"),
+              HasSubstr("pairs.csv:2: has 1 fields; the header has 2"));
   EXPECT_THAT(message("image,face\ns1,9\n"), HasSubstr("pairs.csv:2: no face is called '9'"));
 }
 

@@ -146,6 +146,114 @@ TEST(ColourProfile, GreyScansHaveGreyProfiles) {
   }
 }
 
+// The light that is left after four inks, each of which takes its part: 0 to 1.
+std::array<double, 3> PlainPrint(const std::array<double, 4>& inks) {
+  std::array<double, 3> light;
+  for (int c = 0; c < 3; ++c) light[c] = (1 - inks[c]) * (1 - inks[3]);
+  return light;
+}
+
+// A press for which that is true, as a table from inks to Lab.
+Bytes PressProfile() {
+  struct Sampler {
+    static cmsInt32Number Sample(const cmsUInt16Number in[], cmsUInt16Number out[], void* to_lab) {
+      std::array<double, 4> inks;
+      for (int i = 0; i < 4; ++i) inks[i] = in[i] / 65535.0;
+      const std::array<double, 3> light = PlainPrint(inks);
+      cmsUInt16Number rgb[3];
+      for (int c = 0; c < 3; ++c) rgb[c] = static_cast<cmsUInt16Number>(65535 * light[c] + 0.5);
+      cmsDoTransform(to_lab, rgb, out, 1);
+      return 1;
+    }
+  };
+  cmsHPROFILE srgb = cmsCreate_sRGBProfile();
+  cmsHPROFILE lab = cmsCreateLab4Profile(nullptr);
+  cmsHTRANSFORM to_lab =
+      cmsCreateTransform(srgb, TYPE_RGB_16, lab, TYPE_Lab_16, INTENT_RELATIVE_COLORIMETRIC, 0);
+  cmsHPROFILE profile = cmsCreateProfilePlaceholder(nullptr);
+  cmsSetProfileVersion(profile, 4.2);
+  cmsSetDeviceClass(profile, cmsSigOutputClass);
+  cmsSetColorSpace(profile, cmsSigCmykData);
+  cmsSetPCS(profile, cmsSigLabData);
+  cmsPipeline* pipeline = cmsPipelineAlloc(nullptr, 4, 3);
+  cmsStage* table = cmsStageAllocCLut16bit(nullptr, 11, 4, 3, nullptr);
+  EXPECT_TRUE(cmsStageSampleCLut16bit(table, Sampler::Sample, to_lab, 0));
+  cmsPipelineInsertStage(pipeline, cmsAT_BEGIN, table);
+  EXPECT_TRUE(cmsWriteTag(profile, cmsSigAToB0Tag, pipeline));
+  cmsPipelineFree(pipeline);
+  cmsDeleteTransform(to_lab);
+  cmsCloseProfile(srgb);
+  cmsCloseProfile(lab);
+  return Saved(profile);
+}
+
+// Inks as a press' TIFF has them.
+template <typename Code>
+void WriteInks(const std::filesystem::path& file, const Raster<Code>& inks, const Bytes* profile) {
+  const OIIO::TypeDesc type = sizeof(Code) == 1 ? OIIO::TypeUInt8 : OIIO::TypeUInt16;
+  OIIO::ImageSpec spec(inks.width, inks.height, 4, type);
+  spec.channelnames = {"C", "M", "Y", "K"};
+  spec.alpha_channel = -1;
+  spec.attribute("tiff:ColorSpace", "CMYK");
+  spec.attribute("oiio:ColorSpace", "CMYK");
+  if (profile) {
+    spec.attribute("ICCProfile",
+                   OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile->size())),
+                   profile->data());
+  }
+  const auto output = OIIO::ImageOutput::create(file.string());
+  ASSERT_TRUE(output && output->open(file.string(), spec)) << output->geterror();
+  ASSERT_TRUE(output->write_image(type, inks.values.data()) && output->close());
+}
+
+Image8 SomeInks() {
+  Image8 inks(8, 1, 4);
+  for (int x = 0; x < 8; ++x) {
+    inks.At(x, 0)[0] = static_cast<uint8_t>(30 * x);
+    inks.At(x, 0)[1] = static_cast<uint8_t>(200 - 25 * x);
+    inks.At(x, 0)[2] = static_cast<uint8_t>(x % 3 * 80);
+    inks.At(x, 0)[3] = static_cast<uint8_t>(x % 2 * 60);
+  }
+  return inks;
+}
+
+TEST(Inks, AreConvertedByTheirProfile) {
+  const TemporaryFolder folder;
+  const Image8 inks = SomeInks();
+  Image16 inks16(8, 1, 4);
+  for (size_t i = 0; i < inks.values.size(); ++i) {
+    inks16.values[i] = static_cast<uint16_t>(257 * inks.values[i]);
+  }
+  const Bytes profile = PressProfile();
+  WriteInks(folder / "8.tif", inks, &profile);
+  WriteInks(folder / "16.tif", inks16, &profile);
+  EXPECT_TRUE(InspectImage(folder / "8.tif").warnings.empty());
+  const Image8 srgb8 = ReadSrgb8(folder / "8.tif");
+  const Image8 from16 = ReadSrgb8(folder / "16.tif");
+  const ImageF radiance = ReadRadiance(folder / "16.tif");
+  ASSERT_EQ(srgb8.channels, 3);
+  for (int x = 0; x < 8; ++x) {
+    std::array<double, 4> share;
+    for (int i = 0; i < 4; ++i) share[i] = inks.At(x, 0)[i] / 255.0;
+    const std::array<double, 3> light = PlainPrint(share);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(srgb8.At(x, 0)[c], 255 * light[c], 8) << x << c;
+      EXPECT_NEAR(from16.At(x, 0)[c], 255 * light[c], 8) << x << c;
+      EXPECT_NEAR(255 * SrgbFromLinear(radiance.At(x, 0)[c]), 255 * light[c], 8) << x << c;
+    }
+  }
+}
+
+TEST(Inks, WithoutAProfileAreThoseOfOrdinaryPrintAndThatIsSaid) {
+  const TemporaryFolder folder;
+  Image8 inks(3, 1, 4);
+  inks.values = {0, 0, 0, 0, 0, 255, 255, 0, 0, 0, 0, 255};  // paper, red, black
+  WriteInks(folder / "a.tif", inks, nullptr);
+  EXPECT_EQ(ReadSrgb8(folder / "a.tif").values, (Bytes{255, 255, 255, 237, 28, 36, 35, 31, 32}));
+  EXPECT_THAT(InspectImage(folder / "a.tif").warnings,
+              testing::ElementsAre(HasSubstr("a.tif: is CMYK without an ICC profile")));
+}
+
 TEST(ColourProfile, WrongProfilesAreErrorsThatSaySo) {
   const TemporaryFolder folder;
   const Image8 colour(8, 8, 3, 120);

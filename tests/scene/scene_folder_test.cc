@@ -131,7 +131,7 @@ TEST(CheckScene, WarnsOfWhatDoesNotMatchAndSaysWhatWasExpected) {
                                 "views/s7.view")));
   EXPECT_THAT(warnings,
               Contains(EndsWith("views/s8.view: tag of s8 without a photograph; expected "
-                                "images/s8 with .jpg, .png, .tif or .exr")));
+                                "images/s8 with .jpg, .png, .tif, .heic or another image")));
   EXPECT_THAT(warnings, Contains(HasSubstr("images/Thumbs.db: not an image that is read here")));
   EXPECT_THAT(warnings, Contains(HasSubstr("views/notes.txt: not a view file")));
   EXPECT_THAT(warnings, Contains(HasSubstr("masks/s99.png: mask without a photograph")));
@@ -215,6 +215,78 @@ TEST(TagTable, SaysTheSameAsViewFiles) {
   expected.sigmas.roll_deg = 2;
   EXPECT_EQ(scene.photographs[1].tag, expected);
   EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(TagTable, ReadsASpreadsheetOfTheContinent) {
+  const TableFolder folder(
+      "\xEF\xBB\xBFimage;x;y;z;i;j;k;a;v\r\ns2.jpg;22,2;-74,9;5,1;23,9;-11,6;20,7;1,5;54\r\n"
+      "s10.jpg;78,6;-66,4;4,8;43,5;0,2;19,6;1,5;54\r\n");
+  const SceneCheck check = CheckScene(folder.path());
+  EXPECT_THAT(check.faults, IsEmpty());
+  ASSERT_EQ(check.scene.photographs.size(), 2u);
+  const ViewTag& tag = check.scene.photographs[0].tag;
+  EXPECT_EQ(tag.position_in_site, Eigen::Vector3d(22.2, -74.9, 5.1));
+  EXPECT_EQ(tag.aspect, 1.5);
+}
+
+TEST(TagTable, UnclearNumbersNameLineAndColumn) {
+  const TableFolder folder(
+      "image,x,y,z,i,j,k,a,v\ns2,\"1,234\",2.5,3,4,5,6,1.5,40\ns10,1,2,3,4,5,6,1.5,40\n");
+  EXPECT_THAT(CheckScene(folder.path()).faults,
+              Contains(HasSubstr("tags.csv:2: key 'x': '1,234' may be 1.234 or 1234; write it with "
+                                 "a decimal point")));
+}
+
+TEST(ReadScene, NamesMatchInAnyUnicodeFormAndCase) {
+  const std::string composed = "S\xC3\xBC";
+  const std::string parted = "su\xCC\x88";
+  const SceneFolder folder;
+  folder.Write("views/" + composed + ".view", kTag);
+  WriteSrgb8(folder / ("images/" + parted + ".JPG"), Image8(30, 20, 3, 128));
+  WriteLabels(folder / ("masks/" + parted + ".png"), Image16(30, 20, 1));
+  std::filesystem::rename(folder / "images/s10.jpg", folder / "images/S10.jpeg");
+  const SceneCheck check = CheckScene(folder.path());
+  EXPECT_THAT(check.faults, IsEmpty());
+  EXPECT_THAT(check.scene.warnings, IsEmpty());
+  ASSERT_EQ(check.scene.photographs.size(), 3u);
+  EXPECT_EQ(check.scene.photographs[0].name, composed);
+  EXPECT_TRUE(check.scene.photographs[0].mask_file);
+  EXPECT_EQ(check.scene.photographs[2].image_file, folder / "images/S10.jpeg");
+}
+
+TEST(ReadScene, ImagesAreToldByContent) {
+  const SceneFolder folder;
+  WriteSrgb8(folder / "a.png", Image8(30, 20, 3, 128));
+  std::filesystem::rename(folder / "a.png", folder / "images/s2.jpg");  // a PNG called .jpg
+  std::filesystem::rename(folder / "images/s10.jpg", folder / "images/s10");
+  folder.Write("images/film.mp4",
+               std::string("\0\0\0\x18"
+                           "ftypmp42\0\0\0\0mp42isom",
+                           24));
+  const SceneCheck check = CheckScene(folder.path());
+  EXPECT_THAT(check.faults, IsEmpty());
+  EXPECT_EQ(check.scene.photographs.size(), 2u);
+  ASSERT_EQ(check.scene.warnings.size(), 1u);
+  EXPECT_THAT(check.scene.warnings[0],
+              AllOf(HasSubstr("images/film.mp4: not an image that is read here, but a film"),
+                    HasSubstr("ffmpeg")));
+}
+
+TEST(ReadScene, SaysWhatIsUnusualOfAnImage) {
+  const SceneFolder folder;
+  const std::string whole = ReadTextFile(folder / "images/s10.jpg");
+  folder.Write("images/s10.jpg", whole.substr(0, whole.size() - 2));
+  const SceneCheck check = CheckScene(folder.path());
+  EXPECT_THAT(check.faults, IsEmpty());
+  EXPECT_THAT(check.scene.warnings, Contains(HasSubstr("images/s10.jpg: lacks its end mark")));
+}
+
+TEST(CheckScene, SaysInWhatANameDiffers) {
+  const SceneFolder folder;
+  std::filesystem::rename(folder / "images/s10.jpg", folder / "images/s_010.jpg");
+  EXPECT_THAT(CheckScene(folder.path()).scene.warnings,
+              Contains(AllOf(HasSubstr("views/s10.view: tag of s10 without a photograph"),
+                             HasSubstr("is it s_010.jpg? it differs in zeros"))));
 }
 
 TEST(TagTable, YawAndPitchAreTheThesisAngles) {

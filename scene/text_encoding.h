@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace groundglass {
+
+bool IsUtf8(std::string_view bytes);
+
+// A text as UTF-8, without byte order mark, however it was saved: as UTF-8, UTF-16 (Excel's
+// "Unicode text"), or, where it is neither, Windows-1252, which holds Latin-1.
+struct Utf8Text {
+  std::string text;
+  bool is_guessed = false;  // neither UTF-8 nor marked as UTF-16: read as Windows-1252
+};
+Utf8Text Utf8FromBytes(std::string_view bytes);
+
+// A name such that two names that a person takes for the same are equal: letters composed in one
+// way (macOS parts "ü" in two) and without upper case.
+std::string FoldedName(std::string_view name);
+
+}  // namespace groundglass
