@@ -91,8 +91,7 @@ void WriteTexturedObj(const std::filesystem::path& file,
     if (has_16_bits) {
       WriteSrgb16(file.parent_path() / picture, model.pages[i].srgb16);
     } else if (image_extension == ".jpg" && i < pages.size()) {
-      WriteFileAtomically(file.parent_path() / picture,
-                          std::string(pages[i].begin(), pages[i].end()));
+      WriteFileAtomically(file.parent_path() / picture, AsText(pages[i]));
     } else {
       WriteSrgb8(file.parent_path() / picture, model.pages[i].srgb8);
     }
@@ -105,8 +104,7 @@ void WriteTexturedObj(const std::filesystem::path& file,
   WriteFileAtomically(library, materials);
 
   std::string text = std::string("# Groundglass: x east, y north, z up.\n# unit: ") +
-                     UnitName(model.model.unit) + "\nmtllib " +
-                     library.filename().string() + "\n";
+                     UnitName(model.model.unit) + "\nmtllib " + library.filename().string() + "\n";
   for (const Eigen::Vector3d& point : model.model.points_in_world) {
     text += "v " + FormatNumber(point.x() + 0.0) + " " + FormatNumber(point.y() + 0.0) + " " +
             FormatNumber(point.z() + 0.0) + "\n";
