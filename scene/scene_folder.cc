@@ -3,6 +3,7 @@
 #include "scene/scene_folder.h"
 
 #include "scene/error.h"
+#include "scene/select_photographs.h"
 #include "scene/tags_csv.h"
 #include "scene/text.h"
 #include "scene/view_io.h"
@@ -13,6 +14,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <set>
 
 namespace groundglass {
 namespace {
@@ -24,6 +26,8 @@ constexpr std::array<std::string_view, 6> kModelExtensions = {
 constexpr std::array<std::string_view, 6> kImageExtensions = {
     ".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr"};
 constexpr const char* kModelNames = "model.osu, .obj, .ply, .stl or .glb";
+// So many photographs' faults are told where none of them can be used.
+constexpr size_t kMostReasons = 3;
 constexpr const char* kImageNames = ".jpg, .png, .tif or .exr";
 
 template <size_t N>
@@ -59,6 +63,13 @@ struct FoundTag {
   fs::path view_file;
 };
 
+// A scene and its faults, told apart by what they spoil.
+struct SceneReading {
+  SceneCheck check;                       // with every fault, in the order of reading
+  std::vector<std::string> scene_faults;  // of the whole: nothing can be done with this scene
+  std::vector<std::string> stray_faults;  // of files that no photograph needs
+};
+
 // Gathers a scene and its faults, part by part, each as far as it can be read.
 class SceneReader {
  public:
@@ -67,11 +78,11 @@ class SceneReader {
     result_.scene.folder = folder;
   }
 
-  SceneCheck Read(bool decode_pixels) {
+  SceneReading Read() {
     std::error_code error;
     if (!fs::is_directory(folder_, error)) {
-      Fault(Error(folder_, "no such scene folder"));
-      return std::move(result_);
+      Fault(Error(folder_, "no such scene folder").what());
+      return {std::move(result_), std::move(scene_faults_), {}};
     }
     ReadTheModel();
     const FilesByStem images = ListImages("images");
@@ -79,12 +90,22 @@ class SceneReader {
     Match(images);
     AddMasks("masks", &Photograph::mask_file);
     AddMasks("faces", &Photograph::faces_file);
-    if (decode_pixels) DecodeAll();
-    return std::move(result_);
+    DecodeAll();
+    std::vector<std::string> stray_faults = SetUnreadableApart();
+    return {std::move(result_), std::move(scene_faults_), std::move(stray_faults)};
   }
 
  private:
-  void Fault(const Error& error) { result_.faults.push_back(error.what()); }
+  // Of the scene as a whole.
+  void Fault(const std::string& line) {
+    result_.faults.push_back(line);
+    scene_faults_.push_back(line);
+  }
+  // Of one photograph, its tag or its masks.
+  void FaultOf(const std::string& name, const std::string& line) {
+    result_.faults.push_back(line);
+    faults_of_[name].push_back(line);
+  }
   void Warn(const fs::path& file, const std::string& message) {
     result_.scene.warnings.push_back(Error(file, message).what());
   }
@@ -101,20 +122,21 @@ class SceneReader {
         }
       }
       if (found.empty()) {
-        Fault(Error(folder_, std::string("no model; expected ") + kModelNames));
+        Fault(Error(folder_, std::string("no model; expected ") + kModelNames).what());
         return;
       }
       if (found.size() > 1) {
         Fault(Error(folder_,
                     "two models, " + found[0].filename().string() + " and " +
-                        found[1].filename().string() + "; keep one, or choose it with --model"));
+                        found[1].filename().string() + "; keep one, or choose it with --model")
+                  .what());
         return;
       }
       file = found.front();
     }
     if (LowerCase(file.extension().string()) == ".osu" && fs::is_regular_file(file)) {
       const std::vector<std::string> faults = FindOsuFaults(ReadTextFile(file), file);
-      result_.faults.insert(result_.faults.end(), faults.begin(), faults.end());
+      for (const std::string& fault : faults) Fault(fault);
       if (!faults.empty()) return;
     }
     try {
@@ -123,7 +145,7 @@ class SceneReader {
       std::vector<std::string>& warnings = result_.scene.warnings;
       warnings.insert(warnings.end(), reading.warnings.begin(), reading.warnings.end());
     } catch (const Error& error) {
-      Fault(error);
+      Fault(error.what());
     }
   }
 
@@ -136,9 +158,11 @@ class SceneReader {
       }
       const auto [place, is_new] = images.emplace(file.stem().string(), file);
       if (!is_new) {
-        Fault(Error(file,
-                    "two images have the stem " + Quote(place->first) + "; the other is " +
-                        place->second.filename().string()));
+        FaultOf(place->first,
+                Error(file,
+                      "two images have the stem " + Quote(place->first) + "; the other is " +
+                          place->second.filename().string())
+                    .what());
       }
     }
     return images;
@@ -159,32 +183,38 @@ class SceneReader {
         const std::string name = file.stem().string();
         try {
           const std::string text = ReadTextFile(file);
-          const std::vector<std::string> faults = FindViewFaults(text, file);
-          result_.faults.insert(result_.faults.end(), faults.begin(), faults.end());
-          if (faults.empty()) tags_[name] = {ParseView(text, file), file};
           known_names_[name] = file;
+          const std::vector<std::string> faults = FindViewFaults(text, file);
+          for (const std::string& fault : faults) FaultOf(name, fault);
+          if (faults.empty()) tags_[name] = {ParseView(text, file), file};
         } catch (const Error& read_error) {
-          Fault(read_error);
+          known_names_[name] = file;
+          FaultOf(name, read_error.what());
         }
       }
     } else if (has_table) {
       tags_place_ = "a row in tags.csv";
       try {
         const TagTable rows = ReadTagTable(table, result_.scene.model);
-        result_.faults.insert(result_.faults.end(), rows.faults.begin(), rows.faults.end());
+        for (const std::string& fault : rows.faults) Fault(fault);
         for (const TagRow& row : rows.rows) {
           tags_[row.name] = {row.tag, {}};
           known_names_[row.name] = table;
         }
+        for (const auto& [name, faults] : rows.row_faults) {
+          for (const std::string& fault : faults) FaultOf(name, fault);
+          if (images.count(name) > 0) known_names_[name] = table;
+        }
         if (!rows.faults.empty()) {
-          // A row that cannot be read may be any photograph's: do not call them untagged.
+          // A table that cannot be read may have any photograph: do not call them untagged.
           for (const auto& [name, file] : images) known_names_.emplace(name, table);
         }
       } catch (const Error& read_error) {
-        Fault(read_error);
+        Fault(read_error.what());
       }
     } else {
-      Fault(Error(folder_, "no tags; expected a folder views/ with .view files, or tags.csv"));
+      Fault(
+          Error(folder_, "no tags; expected a folder views/ with .view files, or tags.csv").what());
     }
   }
 
@@ -201,25 +231,27 @@ class SceneReader {
            "tag of " + name + " without a photograph; expected images/" + name + " with " +
                kImageNames);
     }
-    for (const auto& [name, found] : tags_) {
+    for (const auto& [name, place] : known_names_) {
       const auto image = images.find(name);
       if (image == images.end()) continue;
       Photograph photograph;
       photograph.name = name;
       photograph.image_file = image->second;
-      photograph.tag = found.tag;
-      photograph.view_file = found.view_file;
+      if (place.extension() == ".view") photograph.view_file = place;
+      const auto found = tags_.find(name);
+      if (found != tags_.end()) photograph.tag = found->second.tag;
       try {
         photograph.size = ReadImageSize(image->second);
+        if (found != tags_.end()) LookForOddities(photograph);
       } catch (const Error& error) {
-        Fault(error);
-        continue;
+        FaultOf(name, error.what());
+        not_images_.insert(image->second);
       }
-      LookForOddities(photograph);
       result_.scene.photographs.push_back(std::move(photograph));
     }
     if (result_.scene.photographs.empty() && result_.faults.empty()) {
-      Fault(Error(folder_, "no photograph has a tag; expected images/s5.jpg beside views/s5.view"));
+      Fault(Error(folder_, "no photograph has a tag; expected images/s5.jpg beside views/s5.view")
+                .what());
     }
   }
 
@@ -257,18 +289,24 @@ class SceneReader {
         Warn(file, "mask without a photograph; expected images/" + name + " with " + kImageNames);
         continue;
       }
+      // Even one that is at fault is an input: whoever mends it wants the job done again.
+      (*photograph).*member = file;
       try {
         const ImageSize size = ReadImageSize(file);
+        // A picture that cannot be read has no size for a mask to fit.
+        if (not_images_.count(photograph->image_file) > 0) continue;
         if (size.width != photograph->size.width || size.height != photograph->size.height) {
-          throw Error(file,
-                      "mask has " + std::to_string(size.width) + " x " +
-                          std::to_string(size.height) + " pixels, its photograph " +
-                          std::to_string(photograph->size.width) + " x " +
-                          std::to_string(photograph->size.height));
+          FaultOf(
+              name,
+              Error(file,
+                    "mask has " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+                        " pixels, its photograph " + std::to_string(photograph->size.width) +
+                        " x " + std::to_string(photograph->size.height))
+                  .what());
         }
-        (*photograph).*member = file;
       } catch (const Error& error) {
-        Fault(error);
+        FaultOf(name, error.what());
+        not_images_.insert(file);
       }
     }
   }
@@ -279,7 +317,8 @@ class SceneReader {
     const size_t num_faces = result_.scene.model.faces.size();
     std::vector<std::vector<std::string>> faults(photographs.size());
     tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
-      const auto attempt = [&](auto read) {
+      const auto attempt = [&](const fs::path& file, auto read) {
+        if (not_images_.count(file) > 0) return;
         try {
           read();
         } catch (const Error& error) {
@@ -287,10 +326,12 @@ class SceneReader {
         }
       };
       const Photograph& photograph = photographs[i];
-      attempt([&] { ReadSrgb8(photograph.image_file); });
-      if (photograph.mask_file) attempt([&] { ReadLabels(*photograph.mask_file); });
+      attempt(photograph.image_file, [&] { ReadSrgb8(photograph.image_file); });
+      if (photograph.mask_file) {
+        attempt(*photograph.mask_file, [&] { ReadLabels(*photograph.mask_file); });
+      }
       if (photograph.faces_file) {
-        attempt([&] {
+        attempt(*photograph.faces_file, [&] {
           const Image16 labels = ReadLabels(*photograph.faces_file);
           const uint16_t highest = *std::max_element(labels.values.begin(), labels.values.end());
           if (num_faces > 0 && highest > num_faces) {
@@ -301,14 +342,34 @@ class SceneReader {
         });
       }
     });
-    for (const std::vector<std::string>& lines : faults) {
-      result_.faults.insert(result_.faults.end(), lines.begin(), lines.end());
+    for (size_t i = 0; i < photographs.size(); ++i) {
+      for (const std::string& line : faults[i]) FaultOf(photographs[i].name, line);
     }
+  }
+
+  // Moves photographs with faults out of the others' way. Returns the faults that are left.
+  std::vector<std::string> SetUnreadableApart() {
+    Scene& scene = result_.scene;
+    std::erase_if(scene.photographs, [&](Photograph& photograph) {
+      const auto faults = faults_of_.find(photograph.name);
+      if (faults == faults_of_.end()) return false;
+      scene.unreadable.push_back({std::move(photograph), std::move(faults->second)});
+      faults_of_.erase(faults);
+      return true;
+    });
+    std::vector<std::string> stray_faults;
+    for (const auto& [name, faults] : faults_of_) {
+      stray_faults.insert(stray_faults.end(), faults.begin(), faults.end());
+    }
+    return stray_faults;
   }
 
   fs::path folder_;
   SceneOptions options_;
   SceneCheck result_;
+  std::vector<std::string> scene_faults_;
+  std::map<std::string, std::vector<std::string>, NaturalOrder> faults_of_;  // by photograph
+  std::set<fs::path> not_images_;  // whose header cannot be read
   std::map<std::string, FoundTag, NaturalOrder> tags_;
   FilesByStem known_names_;  // every photograph that has a tag, readable or not
   std::string tags_place_;   // where a tag is expected, if not in views/
@@ -317,13 +378,40 @@ class SceneReader {
 }  // namespace
 
 Scene ReadScene(const fs::path& folder, const SceneOptions& options) {
-  SceneCheck check = SceneReader(folder, options).Read(false);
-  if (!check.faults.empty()) throw Error(check.faults.front());
-  return std::move(check.scene);
+  SceneReading reading = SceneReader(folder, options).Read();
+  if (!reading.scene_faults.empty()) throw Error(reading.scene_faults.front());
+  Scene scene = std::move(reading.check.scene);
+  KeepPhotographs(FindPhotographNames(scene, options.only, "option --only"), scene);
+  ForgiveUnreadable(FindPhotographNames(scene, options.exclude, "option --exclude"), scene);
+  if (scene.photographs.empty()) {
+    // One file that is at fault is told as it is; the others are told as well.
+    std::string reasons = "no photograph that can be used";
+    for (size_t i = 0; i < scene.unreadable.size(); ++i) {
+      const std::string& reason = scene.unreadable[i].reasons.front();
+      if (i == 0) reasons = reason;
+      if (i > 0 && i < kMostReasons) reasons += "; " + reason;
+    }
+    if (scene.unreadable.size() > kMostReasons) {
+      reasons += "; and " + std::to_string(scene.unreadable.size() - kMostReasons) +
+                 " more; groundglass check tells them all";
+    }
+    throw scene.unreadable.empty() ? Error(folder, reasons) : Error(reasons);
+  }
+  scene.warnings.insert(
+      scene.warnings.end(), reading.stray_faults.begin(), reading.stray_faults.end());
+  return scene;
 }
 
 SceneCheck CheckScene(const fs::path& folder, const SceneOptions& options) {
-  return SceneReader(folder, options).Read(true);
+  return SceneReader(folder, options).Read().check;
+}
+
+const Photograph* FindPhotograph(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(
+      scene.photographs.begin(), scene.photographs.end(), [&](const Photograph& photograph) {
+        return photograph.name == name;
+      });
+  return found == scene.photographs.end() ? nullptr : &*found;
 }
 
 bool NaturalLess(const std::string& a, const std::string& b) {

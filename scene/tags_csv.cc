@@ -141,37 +141,47 @@ class TableReader {
 
   void ReadRow(int line, std::string_view content) {
     const std::vector<std::string> fields = SplitFields(content);
-    if (fields.size() != columns_.size()) {
-      Fail(line,
-           "has " + std::to_string(fields.size()) + " fields; the header has " +
-               std::to_string(columns_.size()));
+    const size_t image_column = columns_.at("image");
+    const std::string image = image_column < fields.size() ? fields[image_column] : "";
+    std::vector<std::string> faults;
+    const auto fail = [&](const std::string& message) {
+      faults.push_back(Error(file_, line, message).what());
+    };
+    TagRow row;
+    if (image.empty()) {
+      row.name = file_.filename().string() + ":" + std::to_string(line);
+      fail("column 'image' is empty");
+    } else {
+      row.name = NameOfImage(image);
+      if (fields.size() != columns_.size()) {
+        fail("has " + std::to_string(fields.size()) + " fields; the header has " +
+             std::to_string(columns_.size()));
+      } else if (!names_.insert(row.name).second) {
+        fail("photograph " + Quote(row.name) + " has a row already");
+      } else {
+        ReadTag(fields, row, fail);
+      }
+    }
+    if (faults.empty()) {
+      table_.rows.push_back(std::move(row));
       return;
     }
-    const size_t faults_before = table_.faults.size();
+    std::vector<std::string>& all = table_.row_faults[row.name];
+    all.insert(all.end(), faults.begin(), faults.end());
+  }
+
+  // The tag that a row's fields give, or what is wrong with it.
+  template <typename Fail>
+  void ReadTag(const std::vector<std::string>& fields, TagRow& row, const Fail& fail) {
+    bool is_sound = true;
     const auto number = [&](const std::string& column) {
       const std::string& field = fields[columns_.at(column)];
       const std::optional<double> value = ParseNumber(field);
       if (value && std::isfinite(*value)) return *value;
-      Fail(line, "column " + Quote(column) + ": " + Quote(field) + " is not a finite number");
+      fail("column " + Quote(column) + ": " + Quote(field) + " is not a finite number");
+      is_sound = false;
       return 0.0;
     };
-    const std::string& image = fields[columns_.at("image")];
-    if (image.empty()) {
-      Fail(line, "column 'image' is empty");
-      return;
-    }
-    TagRow row;
-    // "s5.jpg" and "s5" both name s5; so does "images/s5.jpg".
-    const std::filesystem::path image_path(image);
-    const std::string extension = LowerCase(image_path.extension().string());
-    const bool has_extension = extension == ".jpg" || extension == ".jpeg" || extension == ".png" ||
-                               extension == ".tif" || extension == ".tiff" || extension == ".exr";
-    row.name = (has_extension ? image_path.stem() : image_path.filename()).string();
-    if (!names_.insert(row.name).second) {
-      Fail(line, "photograph " + Quote(row.name) + " has a row already");
-      return;
-    }
-
     std::string view_text;
     for (const auto& [column, index] : columns_) {
       if (column == "image" || column == "yaw" || column == "pitch" || column == "lat" ||
@@ -195,15 +205,23 @@ class TableReader {
       const double distance = std::max(1.0, (center_in_site_ - position).norm());
       view_text += FormatPoint("i", "j", "k", position + distance * axis);
     }
-    if (table_.faults.size() > faults_before) return;
+    if (!is_sound) return;
     // The view file's own checks; its line 1 is this row.
     for (const std::string& fault : FindViewFaults(view_text, "")) {
       const size_t colon = fault.find(": ");
-      Fail(line, fault.substr(colon + 2));
+      fail(fault.substr(colon + 2));
+      is_sound = false;
     }
-    if (table_.faults.size() > faults_before) return;
-    row.tag = ParseView(view_text, file_);
-    table_.rows.push_back(std::move(row));
+    if (is_sound) row.tag = ParseView(view_text, file_);
+  }
+
+  // "s5.jpg" and "s5" both name s5; so does "images/s5.jpg".
+  static std::string NameOfImage(const std::string& image) {
+    const std::filesystem::path image_path(image);
+    const std::string extension = LowerCase(image_path.extension().string());
+    const bool has_extension = extension == ".jpg" || extension == ".jpeg" || extension == ".png" ||
+                               extension == ".tif" || extension == ".tiff" || extension == ".exr";
+    return (has_extension ? image_path.stem() : image_path.filename()).string();
   }
 
   static std::string FormatPoint(const char* x,

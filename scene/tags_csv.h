@@ -6,6 +6,7 @@
 #include "scene/view_tag.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct TagRow {
 // What could be read of a tags.csv, and one line for each fault.
 struct TagTable {
   std::vector<TagRow> rows;
-  std::vector<std::string> faults;
+  std::vector<std::string> faults;  // of the table as a whole
+  // Of single rows, by photograph; by "tags.csv:7" where the row does not say which one.
+  std::map<std::string, std::vector<std::string>> row_faults;
 };
 
 // Reads tags.csv (docs/scene-folder.md): a view file's keys as columns; `yaw,pitch` may stand for
