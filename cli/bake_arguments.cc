@@ -4,7 +4,7 @@
 
 #include "invrender/selection.h"
 #include "scene/error.h"
-#include "scene/text.h"
+#include "scene/image_io.h"
 
 #include <malloc.h>
 
@@ -13,10 +13,31 @@
 namespace groundglass {
 namespace {
 
-std::string Join(const std::vector<std::string>& words) {
-  std::string joined;
-  for (const std::string& word : words) joined += (joined.empty() ? "" : ",") + word;
-  return joined;
+// Leaves out the photographs whose masks from --masks cannot be used, and tells why.
+std::vector<std::string> DropThoseWithFaultyMasks(const std::filesystem::path& folder,
+                                                  std::vector<BakePhotograph>& photographs) {
+  std::vector<std::string> faults;
+  std::erase_if(photographs, [&](const BakePhotograph& photograph) {
+    const auto& file = photograph.mask_file;
+    if (!file || *file != folder / file->filename()) return false;
+    try {
+      const Image16 mask = ReadLabels(*file);
+      if (mask.width == photograph.camera.width_px && mask.height == photograph.camera.height_px) {
+        return false;
+      }
+      faults.push_back(Error(*file,
+                             "mask has " + std::to_string(mask.width) + " x " +
+                                 std::to_string(mask.height) + " pixels, its photograph " +
+                                 std::to_string(photograph.camera.width_px) + " x " +
+                                 std::to_string(photograph.camera.height_px))
+                           .what());
+    } catch (const Error& error) {
+      faults.push_back(error.what());
+    }
+    faults.back() += "; " + photograph.name + " is left out of the texture";
+    return true;
+  });
+  return faults;
 }
 
 }  // namespace
@@ -60,6 +81,7 @@ void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::st
       ->group(group);
   command
       ->add_option("--masks", arguments.masks_folder, "folder of masks (white = ignore), as s5.png")
+      ->type_name("FOLDER")
       ->group(group);
   command->add_option("--format", arguments.format, "of the OBJ's pages; the GLB's are always JPEG")
       ->capture_default_str()
@@ -89,6 +111,10 @@ void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::st
                  arguments.no_consensus,
                  "keep what only one photograph shows: trees, cars, shadows")
       ->group(group);
+}
+
+void AddTileArguments(CLI::App* command, BakeArguments& arguments) {
+  const std::string group = "Texture";
   CLI::Option* tiles = command
                            ->add_flag("--tiles",
                                       arguments.tiles,
@@ -115,9 +141,8 @@ void WriteTilesIfAsked(const BakeArguments& arguments,
                        const PolygonModel& model,
                        std::vector<BakePhotograph> photographs,
                        const std::filesystem::path& out) {
-  const std::filesystem::path folder = out / "tiles";
-  std::filesystem::remove_all(folder);
   if (!arguments.tiles && !arguments.tile_record) return;
+  const std::filesystem::path folder = out / "tiles";
   const std::vector<std::vector<int>> faces =
       PairFacesWithPhotographs(model, photographs, arguments.tile_options);
   for (size_t i = 0; i < photographs.size(); ++i) photographs[i].faces = faces[i];
@@ -140,12 +165,24 @@ void TuneFreedMemory(const BakeArguments& arguments) {
   mallopt(M_TRIM_THRESHOLD, is_limited ? 1 << 20 : 256 << 20);
 }
 
-void NarrowPhotographs(const BakeArguments& arguments,
-                       const Scene& scene,
-                       std::vector<BakePhotograph>& photographs) {
-  if (photographs.empty()) return;
-  ExcludePhotographs(arguments.exclude, photographs);
-  if (arguments.masks_folder) UseMasks(*arguments.masks_folder, photographs);
+std::vector<std::string> NarrowPhotographs(const BakeArguments& arguments,
+                                           const Scene& scene,
+                                           std::vector<BakePhotograph>& photographs) {
+  std::vector<std::string> faults;
+  // That the scene has them all is known; some may be missing here for other reasons.
+  std::vector<std::string> exclude = arguments.exclude;
+  std::erase_if(exclude, [&](const std::string& name) {
+    return std::none_of(
+        photographs.begin(), photographs.end(), [&](const BakePhotograph& photograph) {
+          return photograph.name == name || photograph.image_file.filename() == name;
+        });
+  });
+  ExcludePhotographs(exclude, photographs);
+  if (photographs.empty()) return faults;
+  if (arguments.masks_folder) {
+    UseMasks(*arguments.masks_folder, photographs);
+    faults = DropThoseWithFaultyMasks(*arguments.masks_folder, photographs);
+  }
   const std::filesystem::path pairs = scene.folder / "pairs.csv";
   if (std::filesystem::exists(pairs)) {
     RestrictToPairs(pairs, scene.model, photographs, NamesOf(scene.photographs));
@@ -153,31 +190,7 @@ void NarrowPhotographs(const BakeArguments& arguments,
   if (!arguments.only.empty()) {
     RestrictToFaces(scene.model, FindFaces(scene.model, arguments.only), photographs);
   }
-}
-
-void DescribeBake(const BakeArguments& arguments, Manifest& manifest) {
-  const auto yes = [](bool value) { return value ? "yes" : "no"; };
-  manifest.options["texel-size"] = FormatNumber(arguments.options.texel_size);
-  manifest.options["max-texture"] = std::to_string(arguments.options.max_page_texels);
-  manifest.options["memory"] = std::to_string(arguments.options.max_memory_mb);
-  manifest.options["exclude"] = Join(arguments.exclude);
-  manifest.options["only"] = Join(arguments.only);
-  manifest.options["format"] = arguments.format;
-  manifest.options["bits"] = std::to_string(arguments.options.bits);
-  manifest.options["fill"] = yes(arguments.options.fill_gaps);
-  manifest.options["accepted-only"] = yes(arguments.accepted_only);
-  manifest.options["colour"] = yes(!arguments.no_colour);
-  manifest.options["consensus"] = yes(!arguments.no_consensus);
-  if (arguments.tiles || arguments.tile_record) {
-    manifest.options["tiles"] = arguments.tiles ? "database" : "record";
-    manifest.options["downsample"] = std::to_string(arguments.tile_options.downsample);
-  }
-  if (!arguments.masks_folder) return;
-  for (const auto& entry : std::filesystem::directory_iterator(*arguments.masks_folder)) {
-    if (!entry.is_regular_file()) continue;
-    manifest.sha256_of_inputs["--masks/" + entry.path().filename().string()] =
-        HashFile(entry.path());
-  }
+  return faults;
 }
 
 }  // namespace groundglass

@@ -5,7 +5,6 @@
 #include "invrender/bake_output.h"
 #include "invrender/invrender.h"
 #include "invrender/tiles.h"
-#include "scene/output_folder.h"
 #include "scene/scene_folder.h"
 
 #include <CLI/CLI.hpp>
@@ -39,22 +38,23 @@ void AddBakeArguments(CLI::App* command,
                       BakeArguments& arguments,
                       const std::string& only_option = "--only-faces");
 
+// --tiles, --tile-record and what belongs to them.
+void AddTileArguments(CLI::App* command, BakeArguments& arguments);
+
 // Pictures come and go. Without --memory, what they took stays with the program for what it needs
 // next, since the system would clear the pages each time; with it, it goes back to the system.
 void TuneFreedMemory(const BakeArguments& arguments);
 
-// Takes --exclude, --masks, --only and the scene's pairs.csv into account.
-void NarrowPhotographs(const BakeArguments& arguments,
-                       const Scene& scene,
-                       std::vector<BakePhotograph>& photographs);
+// Takes --exclude, --masks, --only and the scene's pairs.csv into account. A photograph whose mask
+// from --masks cannot be used is left out; returns a line for each of these.
+std::vector<std::string> NarrowPhotographs(const BakeArguments& arguments,
+                                           const Scene& scene,
+                                           std::vector<BakePhotograph>& photographs);
 
-// Writes out/tiles/ if --tiles or --tile-record asks for it; removes what another run left there.
+// Writes out/tiles/ if --tiles or --tile-record asks for it.
 void WriteTilesIfAsked(const BakeArguments& arguments,
                        const PolygonModel& model,
                        std::vector<BakePhotograph> photographs,
                        const std::filesystem::path& out);
-
-// Adds the options, and the files that only they name, to a manifest.
-void DescribeBake(const BakeArguments& arguments, Manifest& manifest);
 
 }  // namespace groundglass

@@ -2,11 +2,16 @@
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
 #include "cli/commands.h"
+#include "cli/option_values.h"
+#include "cli/register_arguments.h"
+#include "cli/stage_keys.h"
+#include "cli/texture_stages.h"
 #include "scene/error.h"
 #include "scene/model_io.h"
 #include "scene/output_folder.h"
 #include "scene/pose_check.h"
 #include "scene/registration_io.h"
+#include "scene/text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +24,8 @@
 namespace groundglass {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct InvrenderArguments {
   CommonOptions common;
   std::filesystem::path scene_folder;
@@ -27,6 +34,8 @@ struct InvrenderArguments {
   std::optional<std::filesystem::path> model_file;
   std::optional<std::filesystem::path> earlier_model_file;
   BakeArguments bake;
+  std::vector<const CLI::Option*> texture_options;
+  std::vector<const CLI::Option*> tile_options;
 };
 
 // The photographs with their cameras. Verdicts count where `register` left them beside the views.
@@ -42,41 +51,62 @@ std::vector<BakePhotograph> Select(const InvrenderArguments& arguments, const Sc
       break;
     }
   }
-  NarrowPhotographs(arguments.bake, scene, photographs);
   return photographs;
 }
 
-Manifest Describe(const InvrenderArguments& arguments,
-                  const Scene& scene,
-                  const std::vector<BakePhotograph>& photographs) {
-  Manifest manifest;
-  manifest.version = GROUNDGLASS_VERSION;
-  manifest.command = "invrender";
-  manifest.seed = arguments.common.seed;
-  DescribeBake(arguments.bake, manifest);
-  manifest.sha256_of_inputs[scene.model_file.filename().string()] = HashFile(scene.model_file);
-  for (const BakePhotograph& photograph : photographs) {
-    for (const auto& file :
-         {std::optional(photograph.image_file), photograph.mask_file, photograph.faces_file}) {
-      if (!file) continue;
-      manifest.sha256_of_inputs[file->lexically_relative(scene.folder).generic_string()] =
-          HashFile(*file);
+// Photographs that cannot be used, with the reason.
+std::vector<std::string> DescribeUnreadable(const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const UnreadablePhotograph& unreadable : scene.unreadable) {
+    for (const std::string& reason : unreadable.reasons) {
+      lines.push_back(unreadable.photograph.name + " is unreadable: " + reason);
     }
   }
-  if (arguments.earlier_model_file) {
-    manifest.sha256_of_inputs["--as-photographed/" +
-                              arguments.earlier_model_file->filename().string()] =
-        HashFile(*arguments.earlier_model_file);
-  }
-  for (const std::filesystem::path& file : scene.camera_files) {
-    manifest.sha256_of_inputs["--views/" + file.filename().string()] = HashFile(file);
-  }
-  const std::filesystem::path pairs = scene.folder / "pairs.csv";
-  if (std::filesystem::exists(pairs)) manifest.sha256_of_inputs["pairs.csv"] = HashFile(pairs);
-  return manifest;
+  return lines;
 }
 
-void PrintSummary(const BakeResult& result, size_t num_photographs, bool as_json) {
+// Every number of a camera, exactly.
+std::string DescribeCamera(const Camera& camera) {
+  std::string text;
+  const auto add = [&](double number) { text += " " + FormatNumber(number); };
+  for (const double number : {static_cast<double>(camera.width_px),
+                              static_cast<double>(camera.height_px),
+                              camera.focal_x_px,
+                              camera.focal_y_px,
+                              camera.center_x_px,
+                              camera.center_y_px,
+                              camera.k1,
+                              camera.k2,
+                              camera.k3,
+                              camera.p1,
+                              camera.p2}) {
+    add(number);
+  }
+  for (const double number : camera.cam_from_world.rotation.reshaped()) add(number);
+  for (const double number : camera.cam_from_world.translation) add(number);
+  return text;
+}
+
+// What the texture depends on; the cameras count as they are, wherever they come from.
+StageInputs ReadInputs(const InvrenderArguments& arguments,
+                       const Scene& scene,
+                       const std::vector<BakePhotograph>& photographs) {
+  StageInputs inputs = ReadTextureInputs(scene, arguments.texture_options);
+  const StageInputs scene_inputs = ReadRegistrationInputs(scene, {});
+  inputs.sha256_of_inputs.insert(scene_inputs.sha256_of_inputs.begin(),
+                                 scene_inputs.sha256_of_inputs.end());
+  std::string cameras;
+  for (const BakePhotograph& photograph : photographs) {
+    cameras += photograph.name + DescribeCamera(photograph.camera) + "\n";
+  }
+  inputs.sha256_of_inputs["cameras"] = HashText(cameras);
+  return inputs;
+}
+
+void PrintSummary(const BakeResult& result,
+                  size_t num_photographs,
+                  const std::vector<std::string>& unreadable,
+                  bool as_json) {
   long num_texels = 0;
   int num_bare = 0;
   for (const FaceCoverage& face : result.coverage.faces) {
@@ -93,8 +123,10 @@ void PrintSummary(const BakeResult& result, size_t num_photographs, bool as_json
                                          {"covered_texels", num_texels},
                                          {"texel_scale", result.texel_scale},
                                          {"new_faces", new_faces},
-                                         {"pages", result.model.pages.size()}};
-    std::printf("%s\n", json.dump(2).c_str());
+                                         {"pages", result.model.pages.size()},
+                                         {"unreadable", unreadable}};
+    std::printf("%s\n",
+                json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
     return;
   }
   std::printf(
@@ -117,16 +149,20 @@ void PrintSummary(const BakeResult& result, size_t num_photographs, bool as_json
 
 int RunInvrender(const InvrenderArguments& arguments) {
   arguments.bake.options.Check();
+  BakeOptions options = arguments.bake.Options();
   SceneOptions scene_options;
   scene_options.model_file = arguments.model_file;
   scene_options.model.unit = arguments.common.unit;
   scene_options.views = arguments.views_folder;
+  scene_options.exclude = arguments.bake.exclude;
   const Scene scene = ReadScene(arguments.scene_folder, scene_options);
-  for (const std::string& warning : scene.warnings) {
-    std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
-  }
+  PrintWarnings(scene.warnings);
   RequireSoundPoses(scene);
-  const std::vector<BakePhotograph> photographs = Select(arguments, scene);
+  std::vector<std::string> unreadable = DescribeUnreadable(scene);
+  std::vector<BakePhotograph> photographs = Select(arguments, scene);
+  const std::vector<std::string> mask_faults =
+      NarrowPhotographs(arguments.bake, scene, photographs);
+  unreadable.insert(unreadable.end(), mask_faults.begin(), mask_faults.end());
   if (arguments.common.dry_run) {
     std::printf("would texture %zu faces from %zu photographs into %s\n",
                 scene.model.faces.size(),
@@ -134,11 +170,8 @@ int RunInvrender(const InvrenderArguments& arguments) {
                 arguments.out_folder.string().c_str());
     return kExitDone;
   }
-  PrepareOutputFolder(arguments.out_folder);
-  WriteManifest(arguments.out_folder, Describe(arguments, scene, photographs));
-  TuneFreedMemory(arguments.bake);
-  BakeOptions options = arguments.bake.Options();
-  options.on_face_mask = FaceMaskWriter(arguments.out_folder);
+  const fs::path& out = arguments.out_folder;
+  const FolderLock lock = PrepareOutputFolder(out);
   if (arguments.earlier_model_file) {
     ModelReading earlier = ReadModel(*arguments.earlier_model_file, scene_options.model);
     for (const std::string& warning : earlier.warnings) {
@@ -146,17 +179,27 @@ int RunInvrender(const InvrenderArguments& arguments) {
     }
     options.as_photographed = std::move(earlier.model);
   }
+  const StageInputs inputs = ReadInputs(arguments, scene, photographs);
+  const StageInputs tiles_inputs = ReadStageOptions(arguments.tile_options);
+  const std::string key = StageKey(kTextureStage, std::to_string(arguments.common.seed), inputs);
+  OutputStages stages(out, MakeManifest("invrender", arguments.common, {inputs, tiles_inputs}));
+  // What `register` left beside it stays; what `run` made of another texture does not.
+  for (const char* stage : {kTextureStage, kTilesStage, kStillsStage, kReportStage}) {
+    stages.KeepOnly(stage, key);
+  }
+  stages.Write();
   const BakeResult result =
-      BakeTextures(scene.model, photographs, options, MakeProgress(arguments.common, "texture"));
+      BakeAndWrite(scene, photographs, arguments.bake, options, arguments.common, out, key, stages);
   if (result.coverage.CoveredShare() == 0) {
     throw Error("none of the " + std::to_string(photographs.size()) +
                 " photographs shows the front of a face that is to be textured, so nothing is; "
                 "groundglass check SCENE -o DIR draws what the scene's own tags see");
   }
-  WriteBake(result, arguments.out_folder, "." + arguments.bake.format);
-  WriteTilesIfAsked(arguments.bake, scene.model, photographs, arguments.out_folder);
-  PrintSummary(result, photographs.size(), arguments.common.json);
-  return kExitDone;
+  EnsureTiles(
+      scene, photographs, arguments.bake, out, StageKey(kTilesStage, key, tiles_inputs), stages);
+  PrintSummary(result, photographs.size(), unreadable, arguments.common.json);
+  PrintWarnings(unreadable);
+  return unreadable.empty() ? kExitDone : kExitNeedsReview;
 }
 
 }  // namespace
@@ -165,23 +208,34 @@ void AddInvrenderCommand(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<InvrenderArguments>();
   CLI::App* command = app.add_subcommand(
       "invrender", "Turn photographs with known cameras into the model's texture");
-  command->add_option("scene", arguments->scene_folder, "scene folder")->required();
-  command->add_option("-o,--out", arguments->out_folder, "where to write the textured model")
-      ->required();
-  command->add_option("--views",
-                      arguments->views_folder,
-                      ".view files or a COLMAP model (text, binary, sparse/0) in place of the "
-                      "scene's own tags; verdicts in a registration.json beside views are heeded");
-  command->add_option("--model", arguments->model_file, "in place of the one in the scene folder");
-  command->add_option("--as-photographed",
-                      arguments->earlier_model_file,
-                      "the model as it was when the photographs were taken, if the building has "
-                      "changed since: what both have is textured");
-  AddBakeArguments(command, arguments->bake, "--only,--only-faces");
+  arguments->texture_options = OptionsAddedBy(command, [&] {
+    command->add_option("scene", arguments->scene_folder, "scene folder")->required();
+    command->add_option("-o,--out", arguments->out_folder, "where to write the textured model")
+        ->required();
+    command
+        ->add_option("--views",
+                     arguments->views_folder,
+                     ".view files or a COLMAP model (text, binary, sparse/0) in place of the scene's "
+                     "own tags; verdicts in a registration.json beside views are heeded")
+        ->type_name("FOLDER");
+    command->add_option("--model", arguments->model_file, "in place of the one in the scene folder")
+        ->type_name("FILE");
+    command
+        ->add_option("--as-photographed",
+                     arguments->earlier_model_file,
+                     "the model as it was when the photographs were taken, if the building has "
+                     "changed since: what both have is textured")
+        ->type_name("FILE");
+    AddBakeArguments(command, arguments->bake, "--only,--only-faces");
+  });
+  arguments->tile_options =
+      OptionsAddedBy(command, [&] { AddTileArguments(command, arguments->bake); });
   for (const char* tiles : {"--tiles", "--tile-record"}) {
     command->get_option("--as-photographed")->excludes(command->get_option(tiles));
   }
-  AddCommonOptions(command, arguments->common);
+  const std::vector<const CLI::Option*> common =
+      OptionsAddedBy(command, [&] { AddCommonOptions(command, arguments->common); });
+  arguments->texture_options.insert(arguments->texture_options.end(), common.begin(), common.end());
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] { return RunInvrender(*arguments); });
   });

@@ -3,11 +3,14 @@
 #include "cli/commands.h"
 #include "scene/error.h"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
 int main(int argc, char** argv) {
   using namespace groundglass;
+  // A limit on file sizes is a full disk: an error like any other, not the end on the spot.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{
       "Groundglass corrects hand-measured camera tags against a polygon model, and turns the\n"
       "photographs into a textured model.",

@@ -3,49 +3,29 @@
 #include "cli/register_arguments.h"
 
 #include "register/control_points.h"
-#include "register/registration_output.h"
-#include "register/select_photographs.h"
 #include "scene/frames.h"
-#include "scene/image_io.h"
-#include "scene/pose_check.h"
 #include "scene/model_sigma.h"
-#include "viewer/overlay.h"
-
-#include <tbb/parallel_for.h>
+#include "scene/pose_check.h"
+#include "scene/select_photographs.h"
 
 #include <cstdio>
-#include <mutex>
-#include <sstream>
 
 namespace groundglass {
-namespace {
-
-std::string FormatSigma(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << value;
-  return text.str();
-}
-
-std::string JoinWithCommas(const std::vector<std::string>& names) {
-  std::string joined;
-  for (const std::string& name : names) joined += (joined.empty() ? "" : ",") + name;
-  return joined;
-}
-
-}  // namespace
-
 void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
   PriorOptions& prior = arguments.options.prior;
   command->add_option("scene", arguments.scene_folder, "scene folder: model, views/, images/")
       ->required();
   command->add_option("-o,--out", arguments.out_folder, "where to write")->required();
-  command->add_option("--views",
-                      arguments.views_folder,
-                      "a COLMAP model (text, binary, sparse/0) or a folder of .view files in place "
-                      "of the scene's own tags; say with --sigma-... how good they are");
-  command->add_option("--model", arguments.model_file, "the model, in place of the scene's own");
-  command->add_option("--lens", arguments.lens_file, "lens file, as `calibrate board` writes it");
+  command
+      ->add_option("--views",
+                   arguments.views_folder,
+                   "a COLMAP model (text, binary, sparse/0) or a folder of .view files in place "
+                   "of the scene's own tags; say with --sigma-... how good they are")
+      ->type_name("FOLDER");
+  command->add_option("--model", arguments.model_file, "the model, in place of the scene's own")
+      ->type_name("FILE");
+  command->add_option("--lens", arguments.lens_file, "lens file, as `calibrate board` writes it")
+      ->type_name("FILE");
   command->add_flag("--digital",
                     prior.digital,
                     "no slide mount and no scan: the lens is the same in every photograph");
@@ -73,6 +53,7 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
       ->add_option("--points",
                    arguments.points_file,
                    "points file: photograph x_px y_px x y z sigma_px, three or more for each")
+      ->type_name("FILE")
       ->group(by_hand);
   command
       ->add_option("--accept",
@@ -113,19 +94,22 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
       ->group(group);
 }
 
-Scene ReadSceneForCommand(const RegisterArguments& arguments, const CommonOptions& common) {
+Scene ReadSceneForCommand(const RegisterArguments& arguments,
+                          const CommonOptions& common,
+                          const std::vector<std::string>& not_needed) {
   SceneOptions options;
   options.model_file = arguments.model_file;
   options.model.unit = common.unit;
   options.views = arguments.views_folder;
+  options.only = arguments.only;
+  options.exclude = not_needed;
   Scene scene = ReadScene(arguments.scene_folder, options);
-  for (const std::string& warning : scene.warnings) {
-    std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
-  }
+  PrintWarnings(scene.warnings);
   RequireSoundPoses(scene);
-  RequirePhotographs(scene, arguments.only, "option --only");
   RequirePhotographs(scene, arguments.options.overrule.accept, "option --accept");
   RequirePhotographs(scene, arguments.options.overrule.reject, "option --reject");
+  // Faults here are told before anything that is there already is given up.
+  if (arguments.lens_file) ReadLens(*arguments.lens_file);
   if (arguments.points_file) {
     std::vector<std::string> names;
     for (const ControlPoint& point : ReadControlPoints(*arguments.points_file)) {
@@ -133,96 +117,7 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments, const CommonOption
     }
     RequirePhotographs(scene, names, arguments.points_file->string());
   }
-  KeepPhotographs(arguments.only, scene);
   return scene;
-}
-
-Manifest DescribeInputs(const std::string& command,
-                        const Scene& scene,
-                        const RegisterArguments& arguments,
-                        const CommonOptions& common) {
-  Manifest manifest;
-  manifest.version = GROUNDGLASS_VERSION;
-  manifest.command = command;
-  manifest.seed = common.seed;
-  const auto add = [&](const std::filesystem::path& file) {
-    const std::filesystem::path relative = file.lexically_relative(scene.folder);
-    const bool is_inside = !relative.empty() && *relative.begin() != "..";
-    manifest.sha256_of_inputs[(is_inside ? relative : file.filename()).generic_string()] =
-        HashFile(file);
-  };
-  add(scene.model_file);
-  if (arguments.lens_file) add(*arguments.lens_file);
-  if (arguments.points_file) add(*arguments.points_file);
-  for (const std::filesystem::path& file : scene.camera_files) add(file);
-  for (const Photograph& photograph : scene.photographs) {
-    add(photograph.image_file);
-    if (!photograph.view_file.empty()) add(photograph.view_file);
-    if (photograph.mask_file) add(*photograph.mask_file);
-    if (photograph.faces_file) add(*photograph.faces_file);
-  }
-  for (const char* table : {"tags.csv", "pairs.csv"}) {
-    if (std::filesystem::exists(scene.folder / table)) add(scene.folder / table);
-  }
-  const PriorOptions& prior = arguments.options.prior;
-  manifest.options["unit"] = UnitName(scene.model.unit);
-  const auto length = [](const std::optional<double>& metres) {
-    return metres ? FormatSigma(*metres) : std::string("default");
-  };
-  manifest.options["sigma-position"] = length(prior.position_m);
-  manifest.options["sigma-height"] = length(prior.height_m);
-  manifest.options["sigma-lookat"] = length(prior.lookat_m);
-  manifest.options["sigma-roll"] = FormatSigma(prior.roll_deg);
-  manifest.options["sigma-v"] = FormatSigma(prior.view_angle_share);
-  manifest.options["sigma-a"] = FormatSigma(prior.aspect_share);
-  manifest.options["sigma-shift"] = FormatSigma(prior.shift);
-  manifest.options["sigma-k1"] = FormatSigma(prior.k1);
-  manifest.options["digital"] = prior.digital ? "yes" : "no";
-  manifest.options["lock"] = JoinWithCommas(prior.lock);
-  manifest.options["free"] = JoinWithCommas(prior.free);
-  manifest.options["independent"] = arguments.options.independent ? "yes" : "no";
-  manifest.options["only"] = JoinWithCommas(arguments.only);
-  manifest.options["accept"] = JoinWithCommas(arguments.options.overrule.accept);
-  manifest.options["reject"] = JoinWithCommas(arguments.options.overrule.reject);
-  return manifest;
-}
-
-RegisteredScene RegisterAndWrite(const Scene& scene,
-                                 const RegisterArguments& arguments,
-                                 const CommonOptions& common) {
-  std::optional<Lens> lens;
-  if (arguments.lens_file) lens = ReadLens(*arguments.lens_file);
-  RegisterOptions options = arguments.options;
-  if (arguments.points_file) options.control_points = ReadControlPoints(*arguments.points_file);
-  RegisteredScene registered =
-      RegisterScene(scene, lens, options, MakeProgress(common, "registering"));
-  const std::vector<Registration>& registrations = registered.registrations;
-
-  const Progress progress = MakeProgress(common, "drawing overlays");
-  const std::vector<ModelEdge> edges = FindModelEdges(scene.model);
-  const Visibility visibility(scene.model);
-  const int total = static_cast<int>(registrations.size());
-  std::mutex mutex;
-  int done = 0;
-  tbb::parallel_for(0, total, [&](int i) {
-    const Registration& registration = registrations[i];
-    const Camera measured = registration.MeasuredCamera();
-    const Camera corrected = registration.CorrectedCamera();
-    const bool is_rejected = registration.verdict == Verdict::kRejected;
-    WriteSrgb8(arguments.out_folder / "overlays" / (registration.name + ".jpg"),
-               DrawOverlay(ReadSrgb8(scene.photographs[i].image_file),
-                           scene.model,
-                           edges,
-                           visibility,
-                           measured,
-                           is_rejected ? nullptr : &corrected));
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (progress) progress(done, total, registration.name);
-  });
-  // Last, because its being there says that the stage is complete.
-  WriteRegistrationOutput(scene, registered, arguments.out_folder);
-  return registered;
 }
 
 void PrintModelSigma(const PolygonModel& model) {
@@ -235,29 +130,34 @@ void PrintRegistrations(const std::vector<Registration>& registrations) {
     if (value) std::snprintf(text, sizeof text, format, *value);
     return std::string(text);
   };
-  std::printf("%-12s %-9s %9s %8s %9s %8s %8s  %s\n",
-              "photograph",
-              "verdict",
-              "moved px",
-              "rms px",
-              "robust px",
-              "score",
-              "margin",
-              "why not accepted");
+  const auto print = [](const auto&... columns) {
+    std::printf("%-12s %-10s %9s %8s %9s %8s %8s  %s\n", columns...);
+  };
+  print("photograph",
+        "verdict",
+        "moved px",
+        "rms px",
+        "robust px",
+        "score",
+        "margin",
+        "why not accepted");
   for (const Registration& registration : registrations) {
     std::string reasons;
     for (const std::string& reason : registration.reasons) {
       reasons += (reasons.empty() ? "" : "; ") + reason;
     }
-    std::printf("%-12s %-9s %9.1f %8s %9s %8.0f %8s  %s\n",
-                registration.name.c_str(),
-                std::string(VerdictName(registration.verdict)).c_str(),
-                registration.moved_px,
-                number(registration.rms_px, "%.2f").c_str(),
-                number(registration.robust_sigma_px, "%.2f").c_str(),
-                registration.score_nats,
-                number(registration.margin_nats, "%.0f").c_str(),
-                reasons.c_str());
+    const bool is_readable = registration.verdict != Verdict::kUnreadable;
+    const auto if_readable = [&](double value) {
+      return is_readable ? std::optional(value) : std::nullopt;
+    };
+    print(registration.name.c_str(),
+          std::string(VerdictName(registration.verdict)).c_str(),
+          number(if_readable(registration.moved_px), "%.1f").c_str(),
+          number(registration.rms_px, "%.2f").c_str(),
+          number(registration.robust_sigma_px, "%.2f").c_str(),
+          number(if_readable(registration.score_nats), "%.0f").c_str(),
+          number(registration.margin_nats, "%.0f").c_str(),
+          reasons.c_str());
   }
 }
 
@@ -276,6 +176,12 @@ void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit un
                 unit_name.c_str(),
                 error.sigma,
                 error.num_photographs);
+  }
+}
+
+void PrintWarnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
 }
 

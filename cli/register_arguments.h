@@ -4,7 +4,6 @@
 
 #include "cli/commands.h"
 #include "register/register_scene.h"
-#include "scene/output_folder.h"
 #include "scene/scene_folder.h"
 
 #include <CLI/CLI.hpp>
@@ -16,7 +15,7 @@
 
 namespace groundglass {
 
-// What `register` and `run` share: the options, and the step from a scene to corrected tags.
+// What `register` and `run` share: the options, and the reading of the scene.
 struct RegisterArguments {
   std::filesystem::path scene_folder;
   std::filesystem::path out_folder;
@@ -30,19 +29,10 @@ struct RegisterArguments {
 void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments);
 
 // Reads the scene, telling its warnings on stderr, and leaves the photographs that are asked for.
-// Names that it does not have are an Error.
-Scene ReadSceneForCommand(const RegisterArguments& arguments, const CommonOptions& common);
-
-// The inputs' hashes and the options, for manifest.json.
-Manifest DescribeInputs(const std::string& command,
-                        const Scene& scene,
-                        const RegisterArguments& arguments,
-                        const CommonOptions& common);
-
-// Registers the scene and writes views/, registration.json, cameras/ and overlays/.
-RegisteredScene RegisterAndWrite(const Scene& scene,
-                                 const RegisterArguments& arguments,
-                                 const CommonOptions& common);
+// Names that it does not have are an Error. not_needed: photographs whose faults do not matter.
+Scene ReadSceneForCommand(const RegisterArguments& arguments,
+                          const CommonOptions& common,
+                          const std::vector<std::string>& not_needed = {});
 
 // How far the model's edges may lie off, and whether that is a default.
 void PrintModelSigma(const PolygonModel& model);
@@ -51,6 +41,9 @@ void PrintModelSigma(const PolygonModel& model);
 void PrintRegistrations(const std::vector<Registration>& registrations);
 // The lines of the model that are off, if any, in `site`.
 void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit unit);
+
+// On stderr, each as a line.
+void PrintWarnings(const std::vector<std::string>& warnings);
 
 // 0 if all were accepted, else 3.
 int ExitStatusOf(const std::vector<Registration>& registrations);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/option_values.h"
 #include "cli/register_arguments.h"
+#include "cli/register_stages.h"
+#include "cli/stage_keys.h"
+#include "cli/texture_stages.h"
 #include "scene/registration_io.h"
 
 #include <cstdio>
@@ -13,12 +17,15 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
   struct Arguments {
     CommonOptions common;
     RegisterArguments registering;
+    std::vector<const CLI::Option*> options;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("register", "Correct the photographs' tags against the model's edges");
-  AddRegisterArguments(command, arguments->registering);
-  AddCommonOptions(command, arguments->common);
+  arguments->options = OptionsAddedBy(command, [&] {
+    AddRegisterArguments(command, arguments->registering);
+    AddCommonOptions(command, arguments->common);
+  });
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] {
       const RegisterArguments& registering = arguments->registering;
@@ -30,18 +37,31 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
                     registering.out_folder.string().c_str());
         return kExitDone;
       }
-      PrepareOutputFolder(registering.out_folder);
-      WriteManifest(registering.out_folder,
-                    DescribeInputs("register", scene, registering, arguments->common));
-      const RegisteredScene registered = RegisterAndWrite(scene, registering, arguments->common);
+      const FolderLock lock = PrepareOutputFolder(registering.out_folder);
+      const StageInputs inputs = ReadRegistrationInputs(scene, arguments->options);
+      const std::string key = RegistrationKey(arguments->common, inputs);
+      OutputStages stages(registering.out_folder,
+                          MakeManifest("register", arguments->common, {inputs}));
+      const bool is_other = !stages.IsFrom(kRegisterStage, key);
+      for (const char* stage : {kRegisterStage, kOverlayStage}) stages.KeepOnly(stage, key);
+      for (const char* stage : {kTextureStage, kTilesStage, kStillsStage, kReportStage}) {
+        if (is_other) stages.KeepOnly(stage, "");
+      }
+      stages.Write();
+      const RegisteredScene registered =
+          EnsureRegistered(scene, registering, arguments->common, key, stages);
+      EnsureOverlays(scene, registered, registering, arguments->common, key, stages);
       if (arguments->common.json) {
         std::printf("%s",
-                    FormatRegistrations(registered.registrations, registered.model_errors).c_str());
+                    FormatRegistrations(
+                        registered.registrations, registered.model_errors, registered.warnings)
+                        .c_str());
       } else {
         PrintModelSigma(scene.model);
         PrintRegistrations(registered.registrations);
         PrintModelErrors(registered.model_errors, scene.model.unit);
       }
+      PrintWarnings(registered.warnings);
       return ExitStatusOf(registered.registrations);
     });
   });

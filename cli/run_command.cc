@@ -2,71 +2,114 @@
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
 #include "cli/commands.h"
+#include "cli/option_values.h"
 #include "cli/register_arguments.h"
+#include "cli/register_stages.h"
+#include "cli/stage_keys.h"
+#include "cli/texture_stages.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
 #include "scene/registration_io.h"
-#include "scene/textured_model_io.h"
-#include "viewer/camera_path.h"
-#include "viewer/renderer.h"
 #include "viewer/report.h"
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 namespace groundglass {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct RunArguments {
   CommonOptions common;
   RegisterArguments registering;
   BakeArguments baking;
   int num_stills = 4;
+  StageOptions options;
 };
 
-// Stills from where nobody stood: along the flight through the photographs' viewpoints, midway
-// between them.
-void RenderStills(const std::filesystem::path& out,
-                  const TexturedModel& model,
-                  const std::vector<Registration>& registrations,
-                  int num_stills,
-                  const Progress& progress) {
-  std::vector<Camera> cameras;
-  for (const Registration& registration : registrations) {
-    if (registration.verdict != Verdict::kRejected) {
-      cameras.push_back(registration.CorrectedCamera());
+// What the files of each stage depend on (StageKey).
+struct StageKeys {
+  std::string registration;
+  std::string texture;
+  std::string tiles;
+  std::string stills;
+};
+
+// Everything that goes wrong once the tags are corrected is told, and costs no more than its own
+// stage: what the others make is there.
+class Attempts {
+ public:
+  void Try(const char* stage, const std::function<void()>& work) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "groundglass: %s: %s\n", stage, error.what());
+      has_failed_ = true;
     }
   }
-  if (cameras.size() < 2 || num_stills < 1) return;
-  // Twice as many frames as stills: every second one, from the first, lies between viewpoints.
-  const std::vector<Camera> flight = MakeFlight(model.model, cameras, 2 * num_stills + 1);
-  Renderer renderer(model);
-  RenderOptions options;
-  options.background = Background::kSky;
-  options.supersampling = 2;
-  for (int still = 0; still < num_stills; ++still) {
-    const std::string name = "still_" + std::to_string(still + 1) + ".jpg";
-    WriteSrgb8(out / "renders" / name, renderer.Render(flight[2 * still + 1], options));
-    if (progress) progress(still + 1, num_stills, name);
+  bool HaveFailed() const { return has_failed_; }
+
+ private:
+  bool has_failed_ = false;
+};
+
+// Faces, masks and pairs that are wrong are told before the work begins.
+void CheckNarrowing(const RunArguments& arguments, const Scene& scene) {
+  std::vector<BakePhotograph> photographs;
+  for (const Photograph& photograph : scene.photographs) {
+    BakePhotograph& bake = photographs.emplace_back();
+    bake.name = photograph.name;
+    bake.image_file = photograph.image_file;
+    bake.camera.width_px = photograph.size.width;
+    bake.camera.height_px = photograph.size.height;
   }
+  NarrowPhotographs(arguments.baking, scene, photographs);
 }
 
-// What makes a finished stage worth keeping: the same inputs, options and program as now.
-bool CanResume(const std::filesystem::path& out, const Manifest& manifest) {
-  return HasManifest(out, manifest) && std::filesystem::exists(out / "registration.json");
+// Keeps what earlier runs left for the same keys, removes what they left for others.
+OutputStages OpenStages(const fs::path& out, const Manifest& manifest, const StageKeys& keys) {
+  OutputStages stages(out, manifest);
+  stages.KeepOnly(kRegisterStage, keys.registration);
+  stages.KeepOnly(kOverlayStage, keys.registration);
+  stages.KeepOnly(kTextureStage, keys.texture);
+  stages.KeepOnly(kTilesStage, keys.tiles);
+  stages.KeepOnly(kStillsStage, keys.stills);
+  // It tells of all the others, and is always made again.
+  stages.KeepOnly(kReportStage, "");
+  stages.Write();
+  return stages;
+}
+
+void PrintPlaces(const fs::path& out, const ImageSize& stills) {
+  const std::pair<const char*, const char*> places[] = {{"corrected tags", "views"},
+                                                        {"overlays", "overlays"},
+                                                        {"textured model", "model.glb"},
+                                                        {"new viewpoints", "renders"},
+                                                        {"the whole story", "report.html"}};
+  std::printf("\n");
+  for (const auto& [what, name] : places) {
+    if (!fs::exists(out / name)) continue;
+    const bool is_stills = std::string_view(name) == "renders" && stills.width > 0;
+    const std::string size =
+        " (" + std::to_string(stills.width) + " x " + std::to_string(stills.height) + " pixels)";
+    std::printf("%-16s %s%s\n", what, (out / name).string().c_str(), is_stills ? size.c_str() : "");
+  }
 }
 
 int Run(const RunArguments& arguments) {
   const RegisterArguments& registering = arguments.registering;
+  const BakeArguments& baking = arguments.baking;
   const CommonOptions& common = arguments.common;
-  const std::filesystem::path& out = registering.out_folder;
+  const fs::path& out = registering.out_folder;
   registering.options.Check();
-  arguments.baking.options.Check();
-  const Scene scene = ReadSceneForCommand(registering, common);
-  Manifest manifest = DescribeInputs("run", scene, registering, common);
-  DescribeBake(arguments.baking, manifest);
+  baking.options.Check();
+  const BakeOptions bake_options = baking.Options();
+  const Scene scene = ReadSceneForCommand(registering, common, baking.exclude);
+  CheckNarrowing(arguments, scene);
   if (common.dry_run) {
     std::printf("would register %zu photographs, bake %zu faces and write %s\n",
                 scene.photographs.size(),
@@ -74,63 +117,80 @@ int Run(const RunArguments& arguments) {
                 out.string().c_str());
     return kExitDone;
   }
-  PrepareOutputFolder(out);
-  RegisteredScene registered;
+  const FolderLock lock = PrepareOutputFolder(out);
+  const StageInputs inputs = ReadRegistrationInputs(scene, arguments.options.registering);
+  const StageInputs texture_inputs = ReadTextureInputs(scene, arguments.options.texture);
+  const StageInputs tiles_inputs = ReadStageOptions(arguments.options.tiles);
+  const StageInputs stills_inputs = ReadStageOptions(arguments.options.stills);
+  StageKeys keys;
+  keys.registration = RegistrationKey(common, inputs);
+  keys.texture = StageKey(kTextureStage, keys.registration, texture_inputs);
+  keys.tiles = StageKey(kTilesStage, keys.texture, tiles_inputs);
+  keys.stills = StageKey(kStillsStage, keys.texture, stills_inputs);
+  OutputStages stages =
+      OpenStages(out,
+                 MakeManifest("run", common, {inputs, texture_inputs, tiles_inputs, stills_inputs}),
+                 keys);
+
+  const RegisteredScene registered =
+      EnsureRegistered(scene, registering, common, keys.registration, stages);
   const std::vector<Registration>& registrations = registered.registrations;
-  if (CanResume(out, manifest)) {
-    registered = {ReadRegistrations(out / "registration.json"),
-                  ReadModelErrors(out / "registration.json")};
-    if (!common.quiet) std::fprintf(stderr, "keeping the tags that are there already\n");
-  } else {
-    // What another run left would be taken for this one's if it were stopped half way.
-    for (const char* stale : {"registration.json", "coverage.json", "report.html"}) {
-      std::filesystem::remove(out / stale);
-    }
-    WriteManifest(out, manifest);
-    registered = RegisterAndWrite(scene, registering, common);
-  }
   if (!common.json) {
     PrintModelSigma(scene.model);
     PrintRegistrations(registrations);
     PrintModelErrors(registered.model_errors, scene.model.unit);
   }
+  Attempts attempts;
+  attempts.Try("overlays", [&] {
+    EnsureOverlays(scene, registered, registering, common, keys.registration, stages);
+  });
 
   std::vector<BakePhotograph> photographs =
-      SelectPhotographs(scene, registrations, arguments.baking.accepted_only);
-  NarrowPhotographs(arguments.baking, scene, photographs);
+      SelectPhotographs(scene, registrations, baking.accepted_only);
+  std::vector<std::string> mask_faults;
+  bool is_narrowed = false;
+  attempts.Try("texture", [&] {
+    mask_faults = NarrowPhotographs(baking, scene, photographs);
+    is_narrowed = true;
+  });
+  ImageSize stills_size;
   if (photographs.empty()) {
     std::fprintf(stderr,
                  "groundglass: no photograph could be registered, so nothing is textured\n");
-  } else if (!std::filesystem::exists(out / "coverage.json")) {
-    TuneFreedMemory(arguments.baking);
-    BakeOptions options = arguments.baking.Options();
-    options.on_face_mask = FaceMaskWriter(out);
-    const BakeResult bake =
-        BakeTextures(scene.model, photographs, options, MakeProgress(common, "texturing"));
-    RenderStills(
-        out, bake.model, registrations, arguments.num_stills, MakeProgress(common, "rendering"));
-    WriteBake(bake, out, "." + arguments.baking.format);
-    WriteTilesIfAsked(arguments.baking, scene.model, photographs, out);
-    if (!common.json) {
+  } else if (is_narrowed) {
+    attempts.Try("texture", [&] {
+      if (stages.IsComplete(kTextureStage, keys.texture)) return;
+      const BakeResult bake =
+          BakeAndWrite(scene, photographs, baking, bake_options, common, out, keys.texture, stages);
+      if (common.json) return;
       std::printf("texture covers %.1f %% of the model's surface\n",
                   100 * bake.coverage.CoveredShare());
-    }
+    });
+    attempts.Try("tiles",
+                 [&] { EnsureTiles(scene, photographs, baking, out, keys.tiles, stages); });
+    attempts.Try("pictures from new viewpoints", [&] {
+      if (!stages.IsComplete(kTextureStage, keys.texture)) return;
+      stills_size =
+          EnsureStills(registrations, arguments.num_stills, common, out, keys.stills, stages);
+    });
   }
-  WriteFileAtomically(out / "report.html", FormatReport(out, &scene));
+  attempts.Try("report", [&] {
+    stages.Begin(kReportStage, keys.registration, {"report.html"});
+    WriteFileAtomically(out / "report.html", FormatReport(out, &scene));
+    stages.Finish(kReportStage);
+  });
 
   if (common.json) {
-    std::printf("%s", FormatRegistrations(registrations, registered.model_errors).c_str());
-  } else {
     std::printf(
-        "\ncorrected tags   %s\noverlays         %s\ntextured model   %s\n"
-        "new viewpoints   %s\nthe whole story  %s\n",
-        (out / "views").string().c_str(),
-        (out / "overlays").string().c_str(),
-        (out / "model.glb").string().c_str(),
-        (out / "renders").string().c_str(),
-        (out / "report.html").string().c_str());
+        "%s",
+        FormatRegistrations(registrations, registered.model_errors, registered.warnings).c_str());
+  } else {
+    PrintPlaces(out, stills_size);
   }
-  return ExitStatusOf(registrations);
+  PrintWarnings(registered.warnings);
+  PrintWarnings(mask_faults);
+  if (attempts.HaveFailed()) return kExitWrongInput;
+  return mask_faults.empty() ? ExitStatusOf(registrations) : kExitNeedsReview;
 }
 
 }  // namespace
@@ -139,12 +199,19 @@ void AddRunCommand(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand(
       "run", "The main job: correct the tags, texture the model, report what was found");
-  AddRegisterArguments(command, arguments->registering);
-  AddBakeArguments(command, arguments->baking);
-  command->add_option("--stills", arguments->num_stills, "pictures from new viewpoints")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 100));
-  AddCommonOptions(command, arguments->common);
+  StageOptions& options = arguments->options;
+  options.registering =
+      OptionsAddedBy(command, [&] { AddRegisterArguments(command, arguments->registering); });
+  options.texture = OptionsAddedBy(command, [&] { AddBakeArguments(command, arguments->baking); });
+  options.tiles = OptionsAddedBy(command, [&] { AddTileArguments(command, arguments->baking); });
+  options.stills = OptionsAddedBy(command, [&] {
+    command->add_option("--stills", arguments->num_stills, "pictures from new viewpoints")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 100));
+  });
+  const std::vector<const CLI::Option*> common =
+      OptionsAddedBy(command, [&] { AddCommonOptions(command, arguments->common); });
+  options.registering.insert(options.registering.end(), common.begin(), common.end());
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] { return Run(*arguments); });
   });

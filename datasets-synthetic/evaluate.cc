@@ -64,12 +64,13 @@ void EvaluateCameras(const fs::path& found,
     const double error_px = photograph.errors.vertex.mean_px;
     all_px.push_back(error_px);
     const auto registration = registration_of_name.find(true_camera.name);
-    if (registration != registration_of_name.end()) {
+    if (registration != registration_of_name.end() &&
+        registration->second.verdict != Verdict::kUnreadable) {
       photograph.verdict = registration->second.verdict;
       const CameraErrors tag_errors =
           MeasureCameraErrors(model, true_camera.camera, registration->second.MeasuredCamera());
       photograph.start_px = tag_errors.vertex.mean_px;
-      if (photograph.verdict != Verdict::kRejected) {
+      if (HasCorrection(*photograph.verdict)) {
         photograph.sigmas = registration->second.sigmas;
         photograph.calibration =
             MeasureCalibration(photograph.errors.parameters, registration->second.covariance);

@@ -52,7 +52,7 @@ std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
                                               bool accepted_only) {
   std::vector<BakePhotograph> selected;
   for (const Registration& registration : registrations) {
-    if (registration.verdict == Verdict::kRejected) continue;
+    if (!HasCorrection(registration.verdict)) continue;
     if (registration.verdict == Verdict::kReview && accepted_only) continue;
     const Photograph* photograph = FindInScene(scene, registration.name);
     if (!photograph) continue;
@@ -105,6 +105,15 @@ void WriteBake(const BakeResult& result,
   }
   RemoveFrom(out, "provenance_", model.pages.size(), ".png");
   WriteFileAtomically(out / "coverage.json", FormatCoverage(result.coverage));
+}
+
+std::vector<std::string> BakeFiles(const BakeResult& result, const std::string& page_extension) {
+  std::vector<std::string> files = {"coverage.json", "model.glb", "model.mtl", "model.obj"};
+  for (size_t i = 0; i < result.model.pages.size(); ++i) {
+    files.push_back("model_" + std::to_string(i) + page_extension);
+    files.push_back("provenance_" + std::to_string(i) + ".png");
+  }
+  return files;
 }
 
 std::function<void(const BakePhotograph&, const Image16&)> FaceMaskWriter(

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace groundglass {
@@ -33,6 +34,9 @@ std::vector<BakePhotograph> SelectPhotographs(const Scene& scene);
 void WriteBake(const BakeResult& result,
                const std::filesystem::path& out,
                const std::string& page_extension = ".jpg");
+
+// The files that WriteBake writes, relative to `out`.
+std::vector<std::string> BakeFiles(const BakeResult& result, const std::string& page_extension);
 
 // For BakeOptions::on_face_mask: writes the automatic masks, faces/NAME.png.
 std::function<void(const BakePhotograph&, const Image16&)> FaceMaskWriter(

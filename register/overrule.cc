@@ -32,6 +32,7 @@ void OverruleVerdict(const OverruleOptions& options, Registration& registration)
                                     std::string(VerdictName(registration.verdict)));
     registration.verdict = verdict;
   };
+  if (registration.verdict == Verdict::kUnreadable) return;  // nobody can decide that
   if (Contains(options.accept, registration.name)) decide(Verdict::kAccepted);
   if (Contains(options.reject, registration.name)) decide(Verdict::kRejected);
 }

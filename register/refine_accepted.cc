@@ -4,6 +4,7 @@
 
 #include "register/verdict.h"
 #include "register/write_solution.h"
+#include "scene/error.h"
 
 #include <map>
 #include <tuple>
@@ -61,6 +62,11 @@ std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
     joint_options.own_aspect_share = joint_options.own_k1_share;
   }
   const JointRefinement joint = RefineTogether(edge_model, photographs, lenses, joint_options);
+  for (const JointSolution& solution : joint.photographs) {
+    if (!solution.whitened.allFinite() || !solution.covariance.allFinite()) {
+      throw Error("register: the photographs' common solution has no covariance");
+    }
+  }
   for (size_t i = 0; i < photographs.size(); ++i) {
     const AlignedPhotograph& photograph = photographs[i];
     Registration& registration = together[i]->registration;

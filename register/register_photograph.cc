@@ -151,7 +151,7 @@ PhotographAlignment AlignPhotograph(const std::string& name,
 
 void FinishVerdict(const RegisterOptions& options, PhotographAlignment& alignment) {
   Registration& registration = alignment.registration;
-  if (registration.verdict != Verdict::kRejected) {
+  if (HasCorrection(registration.verdict)) {
     JudgeCertainty(options.max_vertex_sigma_px, registration);
   }
   OverruleVerdict(options.overrule, registration);

@@ -3,7 +3,7 @@
 #include "register/register_scene.h"
 
 #include "register/refine_accepted.h"
-#include "register/select_photographs.h"
+#include "scene/select_photographs.h"
 #include "scene/ignore_mask.h"
 #include "scene/image_io.h"
 
@@ -24,6 +24,61 @@ RegisterOptions NamedAsInScene(RegisterOptions options, const Scene& scene) {
   return options;
 }
 
+// The tag stands as it was measured.
+Registration RejectedRegistration(const Photograph& photograph, const std::string& reason) {
+  Registration registration;
+  registration.name = photograph.name;
+  registration.width_px = photograph.size.width;
+  registration.height_px = photograph.size.height;
+  registration.reasons = {reason};
+  registration.measured = photograph.tag;
+  registration.corrected = photograph.tag;
+  return registration;
+}
+
+// Reasons name files by their path from the scene's folder, which may lie anywhere.
+Registration UnreadableRegistration(const Scene& scene,
+                                    const std::string& name,
+                                    std::vector<std::string> reasons) {
+  const std::string folder = (scene.folder / "").string();
+  for (std::string& reason : reasons) {
+    if (reason.starts_with(folder)) reason.erase(0, folder.size());
+  }
+  Registration registration;
+  registration.name = name;
+  registration.verdict = Verdict::kUnreadable;
+  registration.reasons = std::move(reasons);
+  return registration;
+}
+
+// One photograph that spoils its own alignment is news about it, and no end of the others' work.
+PhotographAlignment AlignOrSayWhyNot(const Scene& scene,
+                                     const Photograph& photograph,
+                                     const std::optional<Lens>& lens,
+                                     const EdgeModel& edge_model,
+                                     const RegisterOptions& options) {
+  Image8 grey8;
+  Image8 ignore;
+  try {
+    grey8 = ReadGrey8(photograph.image_file);
+    if (photograph.mask_file) ignore = ReadIgnoreMask(*photograph.mask_file, photograph.size);
+  } catch (const Error& error) {
+    return {UnreadableRegistration(scene, photograph.name, {error.what()}), {}};
+  }
+  try {
+    PhotographAlignment alignment =
+        AlignPhotograph(photograph.name, grey8, ignore, photograph.tag, lens, edge_model, options);
+    const Registration& found = alignment.registration;
+    if (ParametersFromTag(found.corrected).allFinite() && found.covariance.allFinite()) {
+      return alignment;
+    }
+    return {RejectedRegistration(photograph, "the solution for this photograph is not determined"),
+            {}};
+  } catch (const Error& error) {
+    return {RejectedRegistration(photograph, error.what()), {}};
+  }
+}
+
 }  // namespace
 
 RegisteredScene RegisterScene(const Scene& scene,
@@ -39,14 +94,7 @@ RegisteredScene RegisterScene(const Scene& scene,
   int done = 0;
   tbb::parallel_for(0, total, [&](int index) {
     const Photograph& photograph = scene.photographs[index];
-    alignments[index] = AlignPhotograph(
-        photograph.name,
-        ReadGrey8(photograph.image_file),
-        photograph.mask_file ? ReadIgnoreMask(*photograph.mask_file, photograph.size) : Image8(),
-        photograph.tag,
-        lens,
-        edge_model,
-        options);
+    alignments[index] = AlignOrSayWhyNot(scene, photograph, lens, edge_model, options);
     const std::lock_guard lock(mutex);
     ++done;
     if (progress) {
@@ -58,12 +106,23 @@ RegisteredScene RegisterScene(const Scene& scene,
   });
   RegisteredScene registered;
   if (!options.independent) {
-    registered.model_errors = FindModelErrors(
-        edge_model, RefineAccepted(edge_model, options, alignments), options.model_errors);
+    try {
+      registered.model_errors = FindModelErrors(
+          edge_model, RefineAccepted(edge_model, options, alignments), options.model_errors);
+    } catch (const Error& error) {
+      registered.warnings.push_back(
+          std::string("the photographs stay as they were found one by one, since they could not "
+                      "be refined together: ") +
+          error.what());
+    }
   }
   for (PhotographAlignment& alignment : alignments) {
     FinishVerdict(options, alignment);
     registered.registrations.push_back(std::move(alignment.registration));
+  }
+  for (const UnreadablePhotograph& unreadable : scene.unreadable) {
+    registered.registrations.push_back(
+        UnreadableRegistration(scene, unreadable.photograph.name, unreadable.reasons));
   }
   return registered;
 }

@@ -16,6 +16,7 @@ void WriteRegistrationOutput(const Scene& scene,
   std::vector<NamedCamera> cameras;
   for (size_t i = 0; i < registrations.size(); ++i) {
     const Registration& registration = registrations[i];
+    if (registration.verdict == Verdict::kUnreadable) continue;
     const Photograph& photograph = scene.photographs[i];
     const std::string measured_text = photograph.view_file.empty()
                                           ? FormatView(registration.measured)
@@ -30,8 +31,9 @@ void WriteRegistrationOutput(const Scene& scene,
     cameras.push_back({ImageName(scene, photograph), registration.CorrectedCamera()});
   }
   WriteColmapModel(out / "cameras", cameras);
-  WriteFileAtomically(out / "registration.json",
-                      FormatRegistrations(registrations, registered.model_errors));
+  WriteFileAtomically(
+      out / "registration.json",
+      FormatRegistrations(registrations, registered.model_errors, registered.warnings));
 }
 
 }  // namespace groundglass

@@ -4,18 +4,23 @@
 
 #include "scene/error.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <fstream>
+#include <cerrno>
+#include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace groundglass {
 namespace {
 
+namespace fs = std::filesystem;
+
 // A name beside the file that no other process or thread uses; hidden, and with the file's own
 // extension, by which writers choose their format.
-std::filesystem::path TemporaryName(const std::filesystem::path& file) {
+fs::path TemporaryName(const fs::path& file) {
   static std::atomic<unsigned> counter{0};
   std::string name = ".";
   name += file.stem().string() + ".part" + std::to_string(getpid());
@@ -23,34 +28,94 @@ std::filesystem::path TemporaryName(const std::filesystem::path& file) {
   return file.parent_path() / name;
 }
 
-}  // namespace
+[[noreturn]] void Fail(const fs::path& file, int error) {
+  throw Error(file, std::string("cannot write this file: ") + std::strerror(error));
+}
 
-void WriteFileAtomically(const std::filesystem::path& file,
-                         const std::function<void(const std::filesystem::path&)>& write) {
-  std::error_code error;
-  if (file.has_parent_path()) {
-    std::filesystem::create_directories(file.parent_path(), error);
-    if (error) {
-      throw Error(file.parent_path(), "cannot make this folder: " + error.message());
+// What a system call answers once no signal interrupts it.
+template <typename Call>
+auto Uninterrupted(Call call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
+// A file that is being written. `name` is what messages call it.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& name, const fs::path& file, int flags)
+      : name_(name),
+        descriptor_(Uninterrupted([&] { return open(file.c_str(), flags | O_CLOEXEC, 0666); })) {
+    if (descriptor_ < 0) Fail(name_, errno);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+
+  void Write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written =
+          Uninterrupted([&] { return write(descriptor_, bytes.data(), bytes.size()); });
+      if (written < 0) Fail(name_, errno);
+      bytes.remove_prefix(static_cast<size_t>(written));
     }
   }
-  const std::filesystem::path temporary = TemporaryName(file);
+
+  // Some file systems find out only now that there is no room.
+  void Finish() {
+    // EINVAL, ENOTSUP: what cannot be synchronised has no disk that could be full.
+    if (Uninterrupted([&] { return fsync(descriptor_); }) < 0 && errno != EINVAL &&
+        errno != ENOTSUP) {
+      Fail(name_, errno);
+    }
+    if (close(std::exchange(descriptor_, -1)) < 0 && errno != EINTR) Fail(name_, errno);
+  }
+
+ private:
+  fs::path name_;
+  int descriptor_;
+};
+
+template <typename Write>
+void WriteBesideAndRename(const fs::path& file, const Write& write) {
+  std::error_code error;
+  if (file.has_parent_path()) {
+    fs::create_directories(file.parent_path(), error);
+    if (error) throw Error(file.parent_path(), "cannot make this folder: " + error.message());
+  }
+  const fs::path temporary = TemporaryName(file);
   try {
     write(temporary);
-    std::filesystem::rename(temporary, file, error);
+    fs::rename(temporary, file, error);
     if (error) throw Error(file, "cannot write here: " + error.message());
   } catch (...) {
-    std::filesystem::remove(temporary, error);
+    fs::remove(temporary, error);
     throw;
   }
 }
 
-void WriteFileAtomically(const std::filesystem::path& file, const std::string& bytes) {
-  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) throw Error(file, "cannot write this file (folder missing, disk full or read-only)");
+}  // namespace
+
+void WriteFileAtomically(const fs::path& file, std::string_view bytes) {
+  StreamFileAtomically(file, [&](const ByteSink& append) { append(bytes); });
+}
+
+void StreamFileAtomically(const fs::path& file,
+                          const std::function<void(const ByteSink& append)>& write) {
+  WriteBesideAndRename(file, [&](const fs::path& temporary) {
+    Descriptor out(file, temporary, O_WRONLY | O_CREAT | O_TRUNC);
+    write([&](std::string_view bytes) { out.Write(bytes); });
+    out.Finish();
+  });
+}
+
+void WriteFileAtomically(const fs::path& file, const std::function<void(const fs::path&)>& write) {
+  WriteBesideAndRename(file, [&](const fs::path& temporary) {
+    write(temporary);
+    // On the disk before it takes the other's place.
+    Descriptor(file, temporary, O_WRONLY).Finish();
   });
 }
 

@@ -4,16 +4,29 @@
 
 #include <filesystem>
 #include <functional>
-#include <string>
+#include <string_view>
+#include <vector>
 
 namespace groundglass {
 
-// Writes a file beside its place and renames it into place, so that a stop at any moment leaves
-// no half file. Folders are made as needed. Throws Error.
-void WriteFileAtomically(const std::filesystem::path& file, const std::string& bytes);
+// Files are written beside their place and renamed into it once every byte is known to be on the
+// disk, so that neither a stop at any moment nor a full disk leaves half a file or spoils the one
+// that was there. Folders are made as needed. All throw Error, and leave nothing behind then.
 
-// The same for writers that want a path: `write` gets a temporary name with the same extension in
-// the same folder. If it throws, nothing is left behind.
+void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes);
+
+// Encoded bytes as the writers take them.
+inline std::string_view AsText(const std::vector<unsigned char>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// For what is too large for memory: `write` is given what appends to the file.
+using ByteSink = std::function<void(std::string_view bytes)>;
+void StreamFileAtomically(const std::filesystem::path& file,
+                          const std::function<void(const ByteSink& append)>& write);
+
+// For other programs, which want a path: `write` gets a temporary name with the same extension in
+// the same folder, and throws if the program fails.
 void WriteFileAtomically(const std::filesystem::path& file,
                          const std::function<void(const std::filesystem::path&)>& write);
 

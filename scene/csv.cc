@@ -265,12 +265,13 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::vector<std::string>* 
       record.fields.pop_back();
     }
     if (record.fields.size() != header_.size()) {
-      fail(record.line,
-           "has " + std::to_string(record.fields.size()) + " fields; the header has " +
-               std::to_string(header_.size()));
+      const std::string fault = "has " + std::to_string(record.fields.size()) +
+                                " fields; the header has " + std::to_string(header_.size());
+      if (!faults) fail(record.line, fault);
+      rows_.push_back({record.line, std::move(record.fields), fault});
       continue;
     }
-    rows_.push_back({record.line, std::move(record.fields)});
+    rows_.push_back({record.line, std::move(record.fields), ""});
   }
 }
 

@@ -20,12 +20,14 @@ namespace groundglass {
 struct CsvRow {
   int line = 0;                     // where it begins, from 1
   std::vector<std::string> fields;  // without blanks at either end; as many as the header has
+  std::string fault;                // if they are not as many
 };
 
 class CsvTable {
  public:
   // Throws Error FILE:LINE: for quotes that are not closed, or a row with more or fewer fields than
-  // the header has, unless `faults` is given: then each such row is a line there and is left out.
+  // the header has, unless `faults` is given: then the first are lines there, and the second are
+  // kept with their fault.
   CsvTable(const std::filesystem::path& file, std::vector<std::string>* faults = nullptr);
 
   const std::vector<std::string>& header() const { return header_; }  // in lower case

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "scene/image_paths.h"
 
-#include "scene/scene_folder.h"
+#include "scene/image_kind.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -46,7 +46,9 @@ size_t NumShared(const std::vector<std::string>& a, const std::vector<std::strin
 }  // namespace
 
 std::string WithoutExtension(const std::string& path) {
-  return fs::path(path).replace_extension().generic_string();
+  fs::path without(path);
+  if (IsImageExtension(without.extension().string())) without.replace_extension();
+  return without.generic_string();
 }
 
 std::vector<std::string> NamePhotographs(const std::vector<std::string>& paths) {
@@ -126,6 +128,15 @@ std::vector<std::string> ListFilesBelow(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end(), NaturalLess);
   return files;
+}
+
+std::vector<std::string> ListImagePaths(const fs::path& folder) {
+  std::vector<std::string> paths = ListFilesBelow(folder);
+  std::erase_if(paths, [&](const std::string& path) {
+    return !IsImageExtension(fs::path(path).extension().string()) &&
+           !FindImageKind(folder / path).IsImage();
+  });
+  return paths;
 }
 
 }  // namespace groundglass

@@ -14,7 +14,7 @@ namespace groundglass {
 // ("north_0001"). Two names are the same only if two paths differ in nothing but the extension.
 std::vector<std::string> NamePhotographs(const std::vector<std::string>& paths);
 
-// A path without its extension.
+// A path without an image's extension.
 std::string WithoutExtension(const std::string& path);
 
 // Which of the paths another program's name of an image means, folders and extension as far as they
@@ -25,5 +25,8 @@ std::optional<size_t> FindImagePath(const std::vector<std::string>& paths, const
 // The files of a folder and of those below it, as paths in it with slashes, in natural order;
 // hidden ones left out; none if there is no folder.
 std::vector<std::string> ListFilesBelow(const std::filesystem::path& folder);
+
+// Those of them that are images by content or by name.
+std::vector<std::string> ListImagePaths(const std::filesystem::path& folder);
 
 }  // namespace groundglass

@@ -20,14 +20,13 @@ void CheckSize(const std::filesystem::path& file, int width, int height) {
   if (width < 1 || height < 1) throw Error(file, "cannot write an image without pixels");
 }
 
-// Writes through OpenImageIO; `file` is the name for messages, `target` where the bytes go.
-void WritePixels(const std::filesystem::path& file,
-                 const std::filesystem::path& target,
-                 OIIO::ImageSpec spec,
-                 OIIO::TypeDesc type,
-                 const void* pixels,
-                 const ImageWriteOptions& options,
-                 OIIO::Filesystem::IOProxy* proxy = nullptr) {
+// The file's bytes, made by OpenImageIO in memory: its writers take a full disk for nothing (PNG),
+// or end the program (JPEG). `file` names the kind, and is for messages.
+std::vector<unsigned char> EncodePixels(const std::filesystem::path& file,
+                                        OIIO::ImageSpec spec,
+                                        OIIO::TypeDesc type,
+                                        const void* pixels,
+                                        const ImageWriteOptions& options) {
   const std::string extension = LowerCase(file.extension().string());
   if (extension == ".jpg" || extension == ".jpeg") {
     spec.attribute("Compression", "jpeg:" + std::to_string(options.jpeg_quality));
@@ -47,13 +46,24 @@ void WritePixels(const std::filesystem::path& file,
     throw Error(file, "cannot write this kind of image; expected .jpg, .png, .tif or .exr");
   }
   spec.attribute("Software", "groundglass");
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(target.string());
+  const std::string name = "image" + extension;
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
   if (!output) throw Error(file, "cannot write this image: " + OneLine(OIIO::geterror()));
-  if (proxy != nullptr) output->set_ioproxy(proxy);
-  if (!output->open(target.string(), spec) || !output->write_image(type, pixels) ||
-      !output->close()) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput proxy(bytes);
+  if (!output->set_ioproxy(&proxy) || !output->open(name, spec) ||
+      !output->write_image(type, pixels) || !output->close()) {
     throw Error(file, "cannot write this image: " + OneLine(output->geterror()));
   }
+  return bytes;
+}
+
+void WritePixels(const std::filesystem::path& file,
+                 const OIIO::ImageSpec& spec,
+                 OIIO::TypeDesc type,
+                 const void* pixels,
+                 const ImageWriteOptions& options = {}) {
+  WriteFileAtomically(file, AsText(EncodePixels(file, spec, type, pixels, options)));
 }
 
 OIIO::TypeDesc IntegerType(const std::filesystem::path& file, int bits) {
@@ -82,15 +92,13 @@ void WriteRadiance(const std::filesystem::path& file,
   CheckSize(file, radiance.width, radiance.height);
   const OIIO::TypeDesc type = IsExr(file) ? OIIO::TypeHalf : IntegerType(file, options.bits);
   const OIIO::ImageSpec spec(radiance.width, radiance.height, radiance.channels, type);
-  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
-    if (IsExr(file)) {
-      WritePixels(file, temporary, spec, OIIO::TypeFloat, radiance.values.data(), options);
-      return;
-    }
-    std::vector<float> encoded(radiance.values.size());
-    std::transform(radiance.values.begin(), radiance.values.end(), encoded.begin(), SrgbFromLinear);
-    WritePixels(file, temporary, spec, OIIO::TypeFloat, encoded.data(), options);
-  });
+  if (IsExr(file)) {
+    WritePixels(file, spec, OIIO::TypeFloat, radiance.values.data(), options);
+    return;
+  }
+  std::vector<float> encoded(radiance.values.size());
+  std::transform(radiance.values.begin(), radiance.values.end(), encoded.begin(), SrgbFromLinear);
+  WritePixels(file, spec, OIIO::TypeFloat, encoded.data(), options);
 }
 
 void WriteSrgb8(const std::filesystem::path& file,
@@ -109,9 +117,7 @@ void WriteSrgb8(const std::filesystem::path& file,
   }
   const OIIO::ImageSpec spec(
       srgb8.width, srgb8.height, srgb8.channels, IntegerType(file, options.bits));
-  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
-    WritePixels(file, temporary, spec, OIIO::TypeUInt8, srgb8.values.data(), options);
-  });
+  WritePixels(file, spec, OIIO::TypeUInt8, srgb8.values.data(), options);
 }
 
 void WriteSrgb16(const std::filesystem::path& file, const Image16& srgb16) {
@@ -126,9 +132,7 @@ void WriteSrgb16(const std::filesystem::path& file, const Image16& srgb16) {
     WriteRadiance(file, radiance);
     return;
   }
-  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
-    WritePixels(file, temporary, spec, OIIO::TypeUInt16, srgb16.values.data(), {});
-  });
+  WritePixels(file, spec, OIIO::TypeUInt16, srgb16.values.data());
 }
 
 void WriteLabels(const std::filesystem::path& file, const Image16& labels) {
@@ -136,9 +140,7 @@ void WriteLabels(const std::filesystem::path& file, const Image16& labels) {
   const OIIO::ImageSpec spec(labels.width, labels.height, labels.channels, OIIO::TypeUInt16);
   IntegerType(file, 16);
   if (IsExr(file)) throw Error(file, "labels are whole numbers; write them as .png or .tif");
-  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
-    WritePixels(file, temporary, spec, OIIO::TypeUInt16, labels.values.data(), {});
-  });
+  WritePixels(file, spec, OIIO::TypeUInt16, labels.values.data());
 }
 
 std::vector<uint8_t> EncodeImage(const Image8& srgb8,
@@ -147,12 +149,9 @@ std::vector<uint8_t> EncodeImage(const Image8& srgb8,
   options.Check();
   const std::filesystem::path name = "image" + extension;
   CheckSize(name, srgb8.width, srgb8.height);
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput proxy(bytes);
   const OIIO::ImageSpec spec(
       srgb8.width, srgb8.height, srgb8.channels, IntegerType(name, options.bits));
-  WritePixels(name, name, spec, OIIO::TypeUInt8, srgb8.values.data(), options, &proxy);
-  return bytes;
+  return EncodePixels(name, spec, OIIO::TypeUInt8, srgb8.values.data(), options);
 }
 
 }  // namespace groundglass

@@ -105,6 +105,8 @@ std::string_view VerdictName(Verdict verdict) {
       return "review";
     case Verdict::kRejected:
       return "rejected";
+    case Verdict::kUnreadable:
+      return "unreadable";
   }
   return "rejected";
 }

@@ -33,10 +33,14 @@ TagDeviations TagDeviationsFromCovariance(const CameraParameters& parameters,
                                           const CameraCovariance& covariance,
                                           const ViewTag& measured);
 
-enum class Verdict { kAccepted, kReview, kRejected };
+// From good to bad. kUnreadable: the photograph, its tag or its mask could not be read at all.
+enum class Verdict { kAccepted, kReview, kRejected, kUnreadable };
 std::string_view VerdictName(Verdict verdict);
+// Whether a camera was found that is used: accepted, or review.
+inline bool HasCorrection(Verdict verdict) { return verdict < Verdict::kRejected; }
 
-// What became of one photograph.
+// What became of one photograph. Of an unreadable one there are name and reasons, and nothing else
+// that counts.
 struct Registration {
   std::string name;
   int width_px = 0;

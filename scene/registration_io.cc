@@ -87,10 +87,11 @@ std::optional<double> OptionalFromJson(const Json& json, const char* key) {
 }
 
 Verdict VerdictFromName(const std::string& name) {
-  for (const Verdict verdict : {Verdict::kAccepted, Verdict::kReview, Verdict::kRejected}) {
+  for (const Verdict verdict :
+       {Verdict::kAccepted, Verdict::kReview, Verdict::kRejected, Verdict::kUnreadable}) {
     if (VerdictName(verdict) == name) return verdict;
   }
-  throw Error("verdict '" + name + "' is not accepted, review or rejected");
+  throw Error("verdict '" + name + "' is not accepted, review, rejected or unreadable");
 }
 
 Json JsonFromRegistration(const Registration& registration) {
@@ -98,6 +99,7 @@ Json JsonFromRegistration(const Registration& registration) {
   json["name"] = registration.name;
   json["verdict"] = VerdictName(registration.verdict);
   json["reasons"] = registration.reasons;
+  if (registration.verdict == Verdict::kUnreadable) return json;
   json["width_px"] = registration.width_px;
   json["height_px"] = registration.height_px;
   json["measured"] = JsonFromTag(registration.measured);
@@ -129,6 +131,7 @@ Registration RegistrationFromJson(const Json& json) {
   registration.name = json.at("name").get<std::string>();
   registration.verdict = VerdictFromName(json.at("verdict").get<std::string>());
   registration.reasons = json.at("reasons").get<std::vector<std::string>>();
+  if (registration.verdict == Verdict::kUnreadable) return registration;
   registration.width_px = json.at("width_px").get<int>();
   registration.height_px = json.at("height_px").get<int>();
   if (registration.width_px < 1 || registration.height_px < 1) {
@@ -206,7 +209,8 @@ auto ReadDocument(const std::filesystem::path& file, Read read) {
 }  // namespace
 
 std::string FormatRegistrations(const std::vector<Registration>& registrations,
-                                const std::vector<ModelError>& model_errors) {
+                                const std::vector<ModelError>& model_errors,
+                                const std::vector<std::string>& warnings) {
   Json document;
   document["photographs"] = Json::array();
   for (const Registration& registration : registrations) {
@@ -216,6 +220,7 @@ std::string FormatRegistrations(const std::vector<Registration>& registrations,
   for (const ModelError& error : model_errors) {
     document["model_errors"].push_back(JsonFromModelError(error));
   }
+  document["warnings"] = warnings;
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -241,6 +246,12 @@ std::vector<ModelError> ReadModelErrors(const std::filesystem::path& file) {
                         json.at("num_photographs").get<int>()});
     }
     return errors;
+  });
+}
+
+std::vector<std::string> ReadRegistrationWarnings(const std::filesystem::path& file) {
+  return ReadDocument(file, [](const Json& document) {
+    return document.value("warnings", std::vector<std::string>());
   });
 }
 

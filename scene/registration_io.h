@@ -12,9 +12,12 @@ namespace groundglass {
 
 // registration.json (docs/registration-json.md).
 std::string FormatRegistrations(const std::vector<Registration>& registrations,
-                                const std::vector<ModelError>& model_errors = {});
+                                const std::vector<ModelError>& model_errors = {},
+                                const std::vector<std::string>& warnings = {});
 std::vector<Registration> ReadRegistrations(const std::filesystem::path& file);
 // None where the file says nothing of them.
 std::vector<ModelError> ReadModelErrors(const std::filesystem::path& file);
+// What a person should know of the whole, one line each.
+std::vector<std::string> ReadRegistrationWarnings(const std::filesystem::path& file);
 
 }  // namespace groundglass

@@ -5,7 +5,11 @@
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/given_cameras.h"
+#include "scene/ignore_mask.h"
+#include "scene/image_kind.h"
 #include "scene/image_paths.h"
+#include "scene/photograph_name.h"
+#include "scene/select_photographs.h"
 #include "scene/tags_csv.h"
 #include "scene/text.h"
 #include "scene/text_encoding.h"
@@ -17,6 +21,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <set>
 
 namespace groundglass {
 namespace {
@@ -26,6 +31,11 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 6> kModelExtensions = {
     ".osu", ".obj", ".ply", ".stl", ".glb", ".gltf"};
 constexpr const char* kModelNames = "model.osu, .obj, .ply, .stl or .glb";
+// So many photographs' faults are told where none of them can be used.
+constexpr size_t kMostReasons = 3;
+constexpr const char* kCamerasExpected =
+    "no cameras here; expected .view files named after the photographs, or a COLMAP model "
+    "(cameras.txt and images.txt, or cameras.bin and images.bin; in sparse/0 too)";
 
 template <size_t N>
 bool HasExtension(const fs::path& file, const std::array<std::string_view, N>& extensions) {
@@ -60,20 +70,12 @@ struct FoundTag {
   fs::path view_file;
 };
 
-constexpr const char* kCamerasExpected =
-    "no cameras here; expected .view files named after the photographs, or a COLMAP model "
-    "(cameras.txt and images.txt, or cameras.bin and images.bin; in sparse/0 too)";
-
-// Where the .view files of a folder given in place of the scene's own lie: in it, or in its views/
-// if it is an output folder.
-fs::path FindViews(const fs::path& given) {
-  for (const fs::path& folder : {given, given / "views"}) {
-    for (const fs::path& file : ListFiles(folder)) {
-      if (file.extension() == ".view") return folder;
-    }
-  }
-  return {};
-}
+// A scene and its faults, told apart by what they spoil.
+struct SceneReading {
+  SceneCheck check;                       // with every fault, in the order of reading
+  std::vector<std::string> scene_faults;  // of the whole: nothing can be done with this scene
+  std::vector<std::string> stray_faults;  // of files that no photograph needs
+};
 
 // Gathers a scene and its faults, part by part, each as far as it can be read.
 class SceneReader {
@@ -83,11 +85,11 @@ class SceneReader {
     result_.scene.folder = folder;
   }
 
-  SceneCheck Read(bool decode_pixels) {
+  SceneReading Read() {
     std::error_code error;
     if (!fs::is_directory(folder_, error)) {
-      Fault(Error(folder_, "no such scene folder"));
-      return std::move(result_);
+      Fault(Error(folder_, "no such scene folder").what());
+      return {std::move(result_), std::move(scene_faults_), {}};
     }
     ReadTheModel();
     const FilesByStem images = ListImages("images");
@@ -95,12 +97,22 @@ class SceneReader {
     Match(images);
     AddMasks("masks", &Photograph::mask_file);
     AddMasks("faces", &Photograph::faces_file);
-    if (decode_pixels) DecodeAll();
-    return std::move(result_);
+    DecodeAll();
+    std::vector<std::string> stray_faults = SetUnreadableApart();
+    return {std::move(result_), std::move(scene_faults_), std::move(stray_faults)};
   }
 
  private:
-  void Fault(const Error& error) { result_.faults.push_back(error.what()); }
+  // Of the scene as a whole.
+  void Fault(const std::string& line) {
+    result_.faults.push_back(line);
+    scene_faults_.push_back(line);
+  }
+  // Of one photograph, its tag or its masks.
+  void FaultOf(const std::string& name, const std::string& line) {
+    result_.faults.push_back(line);
+    faults_of_[name].push_back(line);
+  }
   void Warn(const fs::path& file, const std::string& message) {
     result_.scene.warnings.push_back(Error(file, message).what());
   }
@@ -117,20 +129,21 @@ class SceneReader {
         }
       }
       if (found.empty()) {
-        Fault(Error(folder_, std::string("no model; expected ") + kModelNames));
+        Fault(Error(folder_, std::string("no model; expected ") + kModelNames).what());
         return;
       }
       if (found.size() > 1) {
         Fault(Error(folder_,
                     "two models, " + found[0].filename().string() + " and " +
-                        found[1].filename().string() + "; keep one, or choose it with --model"));
+                        found[1].filename().string() + "; keep one, or choose it with --model")
+                  .what());
         return;
       }
       file = found.front();
     }
     if (LowerCase(file.extension().string()) == ".osu" && fs::is_regular_file(file)) {
       const std::vector<std::string> faults = FindOsuFaults(ReadTextFile(file), file);
-      result_.faults.insert(result_.faults.end(), faults.begin(), faults.end());
+      for (const std::string& fault : faults) Fault(fault);
       if (!faults.empty()) return;
     }
     try {
@@ -139,31 +152,44 @@ class SceneReader {
       std::vector<std::string>& warnings = result_.scene.warnings;
       warnings.insert(warnings.end(), reading.warnings.begin(), reading.warnings.end());
     } catch (const Error& error) {
-      Fault(error);
+      Fault(error.what());
     }
   }
 
-  // By the photographs' names; files in sub-folders may have the same stem (image_paths.h).
+  // The images of a folder and of those in it, by the photographs' names (image_paths.h), and what
+  // else lies there told once.
   FilesByStem ListImages(const char* subfolder) {
     const fs::path folder = folder_ / subfolder;
     std::vector<std::string> paths = ListFilesBelow(folder);
     std::erase_if(paths, [&](const std::string& path) {
-      if (HasExtension(path, kImageExtensions)) return false;
-      Warn(folder / path, std::string("not an image that is read here; expected ") + kImageNames);
+      const ImageKind kind = FindImageKind(folder / path);
+      if (kind.IsImage() || IsImageExtension(fs::path(path).extension().string())) return false;
+      Warn(folder / path,
+           "not an image that is read here, but " + kind.description + "; expected " + kImageNames +
+               "; " + kind.remedy);
       return true;
     });
     const std::vector<std::string> names = NamePhotographs(paths);
     FilesByStem images;
     for (size_t i = 0; i < paths.size(); ++i) {
-      const auto [place, is_new] = images.emplace(names[i], folder / paths[i]);
-      if (!is_new) {
-        Fault(Error(folder / paths[i],
-                    "two images have the stem " + Quote(place->first) + "; the other is " +
-                        place->second.filename().string()));
+      const fs::path file = folder / paths[i];
+      const auto [place, is_new] = images.emplace(NameInUtf8(file, names[i]), file);
+      if (is_new) continue;
+      // Cameras write both; the picture that is developed already is the better known one.
+      const bool is_raw = FindImageKind(file).reader == "raw";
+      if (is_raw != (FindImageKind(place->second).reader == "raw")) {
+        const fs::path raw_file = is_raw ? file : place->second;
+        if (!is_raw) place->second = file;
+        Warn(raw_file,
+             "camera raw file left out, since " + place->second.filename().string() +
+                 " is there too");
+        continue;
       }
-      Fault(Error(file,
-                  "two images have the stem " + Quote(place->first) + "; the other is " +
-                      place->second.filename().string()));
+      FaultOf(place->first,
+              Error(file,
+                    "two images have the stem " + Quote(place->first) + "; the other is " +
+                        place->second.filename().string())
+                  .what());
     }
     return images;
   }
@@ -185,7 +211,7 @@ class SceneReader {
           return;
         }
       } catch (const Error& read_error) {
-        Fault(read_error);
+        Fault(read_error.what());
         return;
       }
     }
@@ -204,36 +230,42 @@ class SceneReader {
         const std::string name = NameInUtf8(file, file.stem().string());
         try {
           const std::string text = ReadTextFile(file);
-          const std::vector<std::string> faults = FindViewFaults(text, file);
-          result_.faults.insert(result_.faults.end(), faults.begin(), faults.end());
-          if (faults.empty()) tags_[name] = {ParseView(text, file), file};
           known_names_[name] = file;
+          const std::vector<std::string> faults = FindViewFaults(text, file);
+          for (const std::string& fault : faults) FaultOf(name, fault);
+          if (faults.empty()) tags_[name] = {ParseView(text, file), file};
         } catch (const Error& read_error) {
-          Fault(read_error);
+          known_names_[name] = file;
+          FaultOf(name, read_error.what());
         }
       }
     } else if (has_table) {
       tags_place_ = "a row in tags.csv";
       try {
         const TagTable rows = ReadTagTable(table, result_.scene.model);
-        result_.faults.insert(result_.faults.end(), rows.faults.begin(), rows.faults.end());
+        for (const std::string& fault : rows.faults) Fault(fault);
         std::vector<std::string>& warnings = result_.scene.warnings;
         warnings.insert(warnings.end(), rows.warnings.begin(), rows.warnings.end());
         for (const TagRow& row : rows.rows) {
           tags_[row.name] = {row.tag, {}};
           known_names_[row.name] = table;
         }
+        for (const auto& [name, faults] : rows.row_faults) {
+          for (const std::string& fault : faults) FaultOf(name, fault);
+          known_names_[name] = table;
+        }
         if (!rows.faults.empty()) {
-          // A row that cannot be read may be any photograph's: do not call them untagged.
+          // A table that cannot be read may have any photograph: do not call them untagged.
           for (const auto& [name, file] : images) known_names_.emplace(name, table);
         }
       } catch (const Error& read_error) {
-        Fault(read_error);
+        Fault(read_error.what());
       }
     } else if (options_.views) {
-      Fault(Error(*options_.views, kCamerasExpected));
+      Fault(Error(*options_.views, kCamerasExpected).what());
     } else {
-      Fault(Error(folder_, "no tags; expected a folder views/ with .view files, or tags.csv"));
+      Fault(
+          Error(folder_, "no tags; expected a folder views/ with .view files, or tags.csv").what());
     }
   }
 
@@ -251,7 +283,7 @@ class SceneReader {
     result_.scene.camera_files = given.files;
     std::vector<std::string>& warnings = result_.scene.warnings;
     warnings.insert(warnings.end(), given.warnings.begin(), given.warnings.end());
-    result_.faults.insert(result_.faults.end(), given.faults.begin(), given.faults.end());
+    for (const std::string& fault : given.faults) Fault(fault);
     std::map<std::string, std::vector<std::string>> names_of_change;
     for (const auto& [index, camera] : given.camera_of_image) {
       const fs::path& image_file = images.at(names[index]);
@@ -260,7 +292,7 @@ class SceneReader {
         tags_[names[index]] = {TagForModel(fitted.camera, result_.scene.model), {}};
         if (!fitted.change.empty()) names_of_change[fitted.change].push_back(names[index]);
       } catch (const Error& error) {
-        Fault(error);
+        FaultOf(names[index], error.what());
       }
     }
     for (const auto& [change, changed] : names_of_change) {
@@ -272,7 +304,8 @@ class SceneReader {
       Warn(files.images_file, message + " " + change);
     }
     if (given.camera_of_image.empty()) {
-      Fault(Error(files.images_file, "no photograph in images/ has the name of any of its images"));
+      Fault(Error(files.images_file, "no photograph in images/ has the name of any of its images")
+                .what());
     }
   }
 
@@ -305,32 +338,33 @@ class SceneReader {
            "tag of " + name + " without a photograph; expected images/" + name + " with " +
                kImageNames + NearestName(name, left));
     }
-    for (const auto& [name, found] : tags_) {
+    for (const auto& [name, place] : known_names_) {
       const auto image = image_of_tag.find(name);
       if (image == image_of_tag.end()) continue;
+      const auto found = tags_.find(name);
+      // Of a COLMAP model that has no camera for it, and says so.
+      if (found == tags_.end() && faults_of_.count(name) == 0) continue;
       Photograph photograph;
       photograph.name = name;
       photograph.image_file = image->second;
-      photograph.tag = found.tag;
-      photograph.view_file = found.view_file;
+      if (place.extension() == ".view") photograph.view_file = place;
+      if (found != tags_.end()) photograph.tag = found->second.tag;
       try {
-        photograph.size = ReadImageSize(image->second);
+        const ImageInspection inspection = InspectImage(image->second);
+        photograph.size = inspection.size;
+        result_.scene.warnings.insert(result_.scene.warnings.end(),
+                                      inspection.warnings.begin(),
+                                      inspection.warnings.end());
+        if (found != tags_.end()) LookForOddities(photograph);
       } catch (const Error& error) {
-        Fault(error);
-        continue;
+        FaultOf(name, error.what());
+        not_images_.insert(image->second);
       }
-      try {
-        for (const std::string& warning : InspectImage(image->second).warnings) {
-          result_.scene.warnings.push_back(warning);
-        }
-      } catch (const Error&) {
-        // Reading its pixels says the same.
-      }
-      LookForOddities(photograph);
       result_.scene.photographs.push_back(std::move(photograph));
     }
     if (result_.scene.photographs.empty() && result_.faults.empty()) {
-      Fault(Error(folder_, "no photograph has a tag; expected images/s5.jpg beside views/s5.view"));
+      Fault(Error(folder_, "no photograph has a tag; expected images/s5.jpg beside views/s5.view")
+                .what());
     }
   }
 
@@ -366,27 +400,42 @@ class SceneReader {
     std::vector<std::string> names;
     std::vector<fs::path> files;
     for (const auto& [name, file] : ListImages(subfolder)) {
-      const std::string place =
-          WithoutExtension(file.lexically_relative(folder_ / subfolder).generic_string());
-      const auto photograph =
-          std::find_if(result_.scene.photographs.begin(),
-                       result_.scene.photographs.end(),
-                       [&](const Photograph& candidate) {
-                         return candidate.name == name ||
-                                WithoutExtension(ImageName(result_.scene, candidate)) == place;
-                       });
-      if (photograph == result_.scene.photographs.end()) {
-        Warn(file, "mask without a photograph; expected images/" + name + " with " + kImageNames);
+      names.push_back(name);
+      files.push_back(file);
+    }
+    std::vector<Photograph>& photographs = result_.scene.photographs;
+    std::vector<std::optional<size_t>> matches = MatchPhotographs(names, NamesOf(photographs));
+    for (size_t i = 0; i < files.size(); ++i) {
+      const fs::path& file = files[i];
+      if (!matches[i]) matches[i] = FindByPlace(file.lexically_relative(folder_ / subfolder));
+      if (!matches[i]) {
+        Warn(file,
+             "mask without a photograph; expected images/" + names[i] + " with " + kImageNames);
         continue;
       }
       Photograph& photograph = photographs[*matches[i]];
+      // Even one that is at fault is an input: whoever mends it wants the job done again.
+      photograph.*member = file;
       try {
-        CheckMaskSize(file, ReadImageSize(file), photograph.size);
-        photograph.*member = file;
+        const ImageSize size = ReadImageSize(file);
+        // A picture that cannot be read has no size for a mask to fit.
+        if (not_images_.count(photograph.image_file) > 0) continue;
+        CheckMaskSize(file, size, photograph.size);
       } catch (const Error& error) {
-        Fault(error);
+        FaultOf(photograph.name, error.what());
+        not_images_.insert(file);
       }
     }
+  }
+
+  // The photograph that lies in images/ where a mask lies in masks/: north/0001.
+  std::optional<size_t> FindByPlace(const fs::path& mask) const {
+    const std::vector<Photograph>& photographs = result_.scene.photographs;
+    for (size_t i = 0; i < photographs.size(); ++i) {
+      const std::string image = ImageName(result_.scene, photographs[i]);
+      if (WithoutExtension(image) == WithoutExtension(mask.generic_string())) return i;
+    }
+    return std::nullopt;
   }
 
   // Reads every pixel, since a damaged file may have a sound header.
@@ -395,7 +444,8 @@ class SceneReader {
     const PolygonModel& model = result_.scene.model;
     std::vector<std::vector<std::string>> faults(photographs.size());
     tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
-      const auto attempt = [&](auto read) {
+      const auto attempt = [&](const fs::path& file, auto read) {
+        if (not_images_.count(file) > 0) return;
         try {
           read();
         } catch (const Error& error) {
@@ -403,25 +453,46 @@ class SceneReader {
         }
       };
       const Photograph& photograph = photographs[i];
-      attempt([&] { ReadSrgb8(photograph.image_file); });
+      attempt(photograph.image_file, [&] { ReadSrgb8(photograph.image_file); });
       if (photograph.mask_file) {
-        attempt([&] { ReadIgnoreMask(*photograph.mask_file, photograph.size); });
+        attempt(*photograph.mask_file,
+                [&] { ReadIgnoreMask(*photograph.mask_file, photograph.size); });
       }
       if (photograph.faces_file) {
-        attempt([&] {
+        attempt(*photograph.faces_file, [&] {
           const Image16 numbers = ReadLabels(*photograph.faces_file);
           if (!model.faces.empty()) LabelsFromNumbers(model, numbers, *photograph.faces_file);
         });
       }
     });
-    for (const std::vector<std::string>& lines : faults) {
-      result_.faults.insert(result_.faults.end(), lines.begin(), lines.end());
+    for (size_t i = 0; i < photographs.size(); ++i) {
+      for (const std::string& line : faults[i]) FaultOf(photographs[i].name, line);
     }
+  }
+
+  // Moves photographs with faults out of the others' way. Returns the faults that are left.
+  std::vector<std::string> SetUnreadableApart() {
+    Scene& scene = result_.scene;
+    std::erase_if(scene.photographs, [&](Photograph& photograph) {
+      const auto faults = faults_of_.find(photograph.name);
+      if (faults == faults_of_.end()) return false;
+      scene.unreadable.push_back({std::move(photograph), std::move(faults->second)});
+      faults_of_.erase(faults);
+      return true;
+    });
+    std::vector<std::string> stray_faults;
+    for (const auto& [name, faults] : faults_of_) {
+      stray_faults.insert(stray_faults.end(), faults.begin(), faults.end());
+    }
+    return stray_faults;
   }
 
   fs::path folder_;
   SceneOptions options_;
   SceneCheck result_;
+  std::vector<std::string> scene_faults_;
+  std::map<std::string, std::vector<std::string>, NaturalOrder> faults_of_;  // by photograph
+  std::set<fs::path> not_images_;  // whose header cannot be read
   std::map<std::string, FoundTag, NaturalOrder> tags_;
   FilesByStem known_names_;  // every photograph that has a tag, readable or not
   std::string tags_place_;   // where a tag is expected, if not in views/
@@ -431,45 +502,44 @@ class SceneReader {
 }  // namespace
 
 Scene ReadScene(const fs::path& folder, const SceneOptions& options) {
-  SceneCheck check = SceneReader(folder, options).Read(false);
-  if (!check.faults.empty()) throw Error(check.faults.front());
-  return std::move(check.scene);
+  SceneReading reading = SceneReader(folder, options).Read();
+  if (!reading.scene_faults.empty()) throw Error(reading.scene_faults.front());
+  Scene scene = std::move(reading.check.scene);
+  KeepPhotographs(FindPhotographNames(scene, options.only, "option --only"), scene);
+  ForgiveUnreadable(FindPhotographNames(scene, options.exclude, "option --exclude"), scene);
+  if (scene.photographs.empty()) {
+    // One file that is at fault is told as it is; the others are told as well.
+    std::string reasons = "no photograph that can be used";
+    for (size_t i = 0; i < scene.unreadable.size(); ++i) {
+      const std::string& reason = scene.unreadable[i].reasons.front();
+      if (i == 0) reasons = reason;
+      if (i > 0 && i < kMostReasons) reasons += "; " + reason;
+    }
+    if (scene.unreadable.size() > kMostReasons) {
+      reasons += "; and " + std::to_string(scene.unreadable.size() - kMostReasons) +
+                 " more; groundglass check tells them all";
+    }
+    throw scene.unreadable.empty() ? Error(folder, reasons) : Error(reasons);
+  }
+  scene.warnings.insert(
+      scene.warnings.end(), reading.stray_faults.begin(), reading.stray_faults.end());
+  return scene;
 }
 
 SceneCheck CheckScene(const fs::path& folder, const SceneOptions& options) {
-  return SceneReader(folder, options).Read(true);
+  return SceneReader(folder, options).Read().check;
 }
 
 std::string ImageName(const Scene& scene, const Photograph& photograph) {
   return photograph.image_file.lexically_relative(scene.folder / "images").generic_string();
 }
 
-bool NaturalLess(const std::string& a, const std::string& b) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  size_t i = 0;
-  size_t k = 0;
-  while (i < a.size() && k < b.size()) {
-    if (!is_digit(a[i]) || !is_digit(b[k])) {
-      if (a[i] != b[k]) return a[i] < b[k];
-      ++i;
-      ++k;
-      continue;
-    }
-    // Compare two numbers of any length: without leading zeros the longer one is greater.
-    size_t i_end = i;
-    size_t k_end = k;
-    while (i_end < a.size() && is_digit(a[i_end])) ++i_end;
-    while (k_end < b.size() && is_digit(b[k_end])) ++k_end;
-    while (i + 1 < i_end && a[i] == '0') ++i;
-    while (k + 1 < k_end && b[k] == '0') ++k;
-    if (i_end - i != k_end - k) return i_end - i < k_end - k;
-    const int order = a.compare(i, i_end - i, b, k, k_end - k);
-    if (order != 0) return order < 0;
-    i = i_end;
-    k = k_end;
-  }
-  if (i < a.size() || k < b.size()) return k < b.size();
-  return a < b;  // "s01" and "s1" differ only in zeros
+const Photograph* FindUsablePhotograph(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(
+      scene.photographs.begin(), scene.photographs.end(), [&](const Photograph& photograph) {
+        return photograph.name == name;
+      });
+  return found == scene.photographs.end() ? nullptr : &*found;
 }
 
 }  // namespace groundglass

@@ -26,6 +26,13 @@ struct Photograph {
   std::optional<std::filesystem::path> faces_file;  // hand-painted face mask
 };
 
+// A photograph that is there and cannot be used: its picture is damaged, its tag says something
+// impossible, its mask does not fit.
+struct UnreadablePhotograph {
+  Photograph photograph;             // as far as it could be read; size 0 x 0 if not known
+  std::vector<std::string> reasons;  // lines for a person, with file and place; one at least
+};
+
 // Everything that a scene folder holds (docs/scene-folder.md), read and checked; photographs in
 // natural name order (s2 before s10).
 struct Scene {
@@ -35,6 +42,8 @@ struct Scene {
   std::vector<Photograph> photographs;
   // The files of the COLMAP model that gave the tags, if one did.
   std::vector<std::filesystem::path> camera_files;
+  std::vector<UnreadablePhotograph> unreadable;
+  std::vector<std::string> left_out;  // names of photographs that the options leave out
   std::vector<std::string> warnings;  // a photograph without a tag, a tag without a photograph, ...
 };
 
@@ -45,13 +54,19 @@ struct SceneOptions {
   // Its own tags are not looked at. A camera becomes the tag that describes it, its look-at point
   // as far away as the model's middle.
   std::optional<std::filesystem::path> views;
+  // Only these photographs, by name; empty: all. Faults of others do not matter.
+  std::vector<std::string> only;
+  // Photographs that are not needed for what follows: their faults do not matter.
+  std::vector<std::string> exclude;
 };
 
-// Throws Error with the first fault.
+// Decodes every picture once, so that a damaged one is known before the work begins. A photograph
+// with a fault goes to Scene::unreadable; throws Error with the first fault of the scene as a whole
+// (no model, no tags), and if no photograph can be used.
 Scene ReadScene(const std::filesystem::path& folder, const SceneOptions& options = {});
 
-// The same, but collects every fault instead of stopping at the first: all that could be read, and
-// one line for each fault, ready for a person.
+// The same, but collects every fault, of the scene and of its photographs, instead of stopping: all
+// that could be read, and one line for each fault, ready for a person.
 struct SceneCheck {
   Scene scene;
   std::vector<std::string> faults;
@@ -60,8 +75,7 @@ SceneCheck CheckScene(const std::filesystem::path& folder, const SceneOptions& o
 
 // A photograph's path below images/, as COLMAP names it: "north/0001.jpg".
 std::string ImageName(const Scene& scene, const Photograph& photograph);
-
-// "s2" < "s10": runs of digits compare as numbers.
-bool NaturalLess(const std::string& a, const std::string& b);
+// The photograph of this name among those that can be used; null if there is none.
+const Photograph* FindUsablePhotograph(const Scene& scene, const std::string& name);
 
 }  // namespace groundglass

@@ -114,32 +114,54 @@ class TableReader {
   }
 
   void ReadRow(const CsvTable& csv, const CsvRow& csv_row) {
-    const int line = csv_row.line;
     const std::vector<std::string>& fields = csv_row.fields;
-    const size_t faults_before = table_.faults.size();
+    const size_t image_column = columns_.at("image");
+    const std::string image = image_column < fields.size() ? fields[image_column] : "";
+    std::vector<std::string> faults;
+    const auto fail = [&](const std::string& message) {
+      faults.push_back(Error(file_, csv_row.line, message).what());
+    };
+    TagRow row;
+    row.line = csv_row.line;
+    if (image.empty()) {
+      row.name = file_.filename().string() + ":" + std::to_string(csv_row.line);
+      fail("column 'image' is empty");
+    } else {
+      // "s5.jpg" and "s5" both name s5; so does "images/s5.jpg".
+      row.name = ImageStem(image);
+      if (!csv_row.fault.empty()) {
+        fail(csv_row.fault);
+      } else if (!names_.insert(row.name).second) {
+        fail("photograph " + Quote(row.name) + " has a row already");
+      } else {
+        ReadTag(csv, fields, row, fail);
+      }
+    }
+    if (faults.empty()) {
+      table_.rows.push_back(std::move(row));
+      return;
+    }
+    std::vector<std::string>& all = table_.row_faults[row.name];
+    all.insert(all.end(), faults.begin(), faults.end());
+  }
+
+  // The tag that a row's fields give, or what is wrong with it.
+  template <typename Fail>
+  void ReadTag(const CsvTable& csv,
+               const std::vector<std::string>& fields,
+               TagRow& row,
+               const Fail& fail) {
+    bool is_sound = true;
     const auto number = [&](const std::string& column) {
       const std::string& field = fields[columns_.at(column)];
       std::string why_not;
       const std::optional<double> value = csv.Number(field, &why_not);
       if (value && std::isfinite(*value)) return *value;
       if (why_not.empty()) why_not = value ? "is not a finite number" : "is not a number";
-      Fail(line, "key " + Quote(column) + ": " + Quote(field) + " " + why_not);
+      fail("key " + Quote(column) + ": " + Quote(field) + " " + why_not);
+      is_sound = false;
       return 0.0;
     };
-    const std::string& image = fields[columns_.at("image")];
-    if (image.empty()) {
-      Fail(line, "column 'image' is empty");
-      return;
-    }
-    TagRow row;
-    row.line = line;
-    // "s5.jpg" and "s5" both name s5; so does "images/s5.jpg".
-    row.name = ImageStem(image);
-    if (!names_.insert(row.name).second) {
-      Fail(line, "photograph " + Quote(row.name) + " has a row already");
-      return;
-    }
-
     std::string view_text;
     for (const auto& [column, index] : columns_) {
       if (column == "image" || column == "yaw" || column == "pitch" || column == "lat" ||
@@ -164,15 +186,14 @@ class TableReader {
       const double distance = std::max(1.0, (center_in_site_ - position).norm());
       view_text += FormatPoint("i", "j", "k", position + distance * axis);
     }
-    if (table_.faults.size() > faults_before) return;
+    if (!is_sound) return;
     // The view file's own checks; its line 1 is this row.
     for (const std::string& fault : FindViewFaults(view_text, "")) {
       const size_t colon = fault.find(": ");
-      Fail(line, fault.substr(colon + 2));
+      fail(fault.substr(colon + 2));
+      is_sound = false;
     }
-    if (table_.faults.size() > faults_before) return;
-    row.tag = ParseView(view_text, file_);
-    table_.rows.push_back(std::move(row));
+    if (is_sound) row.tag = ParseView(view_text, file_);
   }
 
   static std::string FormatPoint(const char* x,

@@ -6,6 +6,7 @@
 #include "scene/view_tag.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,9 @@ struct TagRow {
 // What could be read of a tags.csv, and one line for each fault.
 struct TagTable {
   std::vector<TagRow> rows;
-  std::vector<std::string> faults;
+  std::vector<std::string> faults;  // of the table as a whole
+  // Of single rows, by photograph; by "tags.csv:7" where the row does not say which one.
+  std::map<std::string, std::vector<std::string>> row_faults;
   std::vector<std::string> warnings;
 };
 

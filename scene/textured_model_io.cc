@@ -29,8 +29,7 @@ void WriteTexturedObj(const std::filesystem::path& file,
     if (has_16_bits) {
       WriteSrgb16(file.parent_path() / picture, model.pages[i].srgb16);
     } else if (image_extension == ".jpg" && i < pages.size()) {
-      WriteFileAtomically(file.parent_path() / picture,
-                          std::string(pages[i].begin(), pages[i].end()));
+      WriteFileAtomically(file.parent_path() / picture, AsText(pages[i]));
     } else {
       WriteSrgb8(file.parent_path() / picture, model.pages[i].srgb8);
     }

@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include <bit>
-#include <fstream>
 #include <string>
 #include <utility>
 
@@ -21,14 +20,10 @@ static_assert(std::endian::native == std::endian::little, "tiles are written as 
 
 void WriteTiles(const std::filesystem::path& file,
                 const std::function<void(const TileSink& append)>& write) {
-  WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
+  StreamFileAtomically(file, [&](const ByteSink& append) {
     write([&](std::span<const Tile> tiles) {
-      out.write(reinterpret_cast<const char*>(tiles.data()),
-                static_cast<std::streamsize>(tiles.size_bytes()));
+      append({reinterpret_cast<const char*>(tiles.data()), tiles.size_bytes()});
     });
-    out.close();
-    if (!out) throw Error(file, "cannot write the tiles; is the disk full?");
   });
 }
 

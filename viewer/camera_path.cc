@@ -8,7 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <string>
+#include <tuple>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -192,16 +196,46 @@ Camera ReframedCamera(const Camera& camera, int width_px, int height_px) {
   return reframed;
 }
 
+Camera FittedCamera(const Camera& camera, int width_px, int height_px) {
+  Camera fitted = camera;
+  fitted.width_px = width_px;
+  fitted.height_px = height_px;
+  fitted.focal_x_px = fitted.focal_y_px =
+      std::min(width_px * camera.focal_x_px / camera.width_px,
+               height_px * camera.focal_y_px / camera.height_px);
+  const auto center = [&](double center_px, int frame_px, double focal_px, int fitted_frame_px) {
+    return fitted_frame_px / 2.0 + (center_px - frame_px / 2.0) / focal_px * fitted.focal_x_px;
+  };
+  fitted.center_x_px = center(camera.center_x_px, camera.width_px, camera.focal_x_px, width_px);
+  fitted.center_y_px = center(camera.center_y_px, camera.height_px, camera.focal_y_px, height_px);
+  return fitted;
+}
+
+ImageSize CommonFrame(const std::vector<Camera>& cameras) {
+  std::map<std::pair<int, int>, int> counts;
+  for (const Camera& camera : cameras) ++counts[{camera.width_px, camera.height_px}];
+  // Lying before upright where both are as many and as large: films are watched lying.
+  const auto rank = [](const auto& entry) {
+    const auto [width, height] = entry.first;
+    return std::tuple(entry.second, static_cast<int64_t>(width) * height, width);
+  };
+  const auto best =
+      std::max_element(counts.begin(), counts.end(), [&](const auto& a, const auto& b) {
+        return rank(a) < rank(b);
+      });
+  return best == counts.end() ? ImageSize{} : ImageSize{best->first.first, best->first.second};
+}
+
 std::vector<Camera> MakeFlight(const PolygonModel& model,
-                               const std::vector<Camera>& cameras,
+                               const std::vector<Camera>& views,
                                int num_frames) {
-  if (cameras.empty()) throw Error("camera path: it needs at least one view");
+  if (views.empty()) throw Error("camera path: it needs at least one view");
   if (num_frames < 1) throw Error("camera path: it needs at least one frame");
-  for (const Camera& camera : cameras) {
-    if (camera.width_px != cameras.front().width_px ||
-        camera.height_px != cameras.front().height_px) {
-      throw Error("camera path: all its views must have one frame size");
-    }
+  const ImageSize size = CommonFrame(views);
+  std::vector<Camera> cameras = views;
+  for (Camera& camera : cameras) {
+    if (camera.width_px == size.width && camera.height_px == size.height) continue;
+    camera = FittedCamera(camera, size.width, size.height);
   }
   const Curve curve(cameras, ChoosePoseFrame(model, cameras));
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/camera.h"
+#include "scene/image_io.h"
 #include "scene/polygon_model.h"
 
 #include <vector>
@@ -14,17 +15,25 @@ namespace groundglass {
 // top and bottom.
 Camera ReframedCamera(const Camera& camera, int width_px, int height_px);
 
+// The camera for a frame of another shape or size that holds all that its own frame holds, as large
+// as it goes; pixels become square, the principal point keeps its place relative to the middle.
+Camera FittedCamera(const Camera& camera, int width_px, int height_px);
+
+// The frame that most of the cameras have; of several, the largest. 0 x 0 without cameras.
+ImageSize CommonFrame(const std::vector<Camera>& cameras);
+
 // A smooth flight through the cameras, in order: Catmull-Rom through positions and lenses, the
 // same construction with slerp in place of lerp through rotations, at an even pace that starts and
 // ends gently. First and last frame are the first and last camera. If all cameras stand outside the
 // model's bounding box the way leads around it, by the shorter side, and keeps it in sight;
-// otherwise straight from camera to camera. All cameras must have the frame size of the first;
-// Error if there are none, or fewer than one frame.
+// otherwise straight from camera to camera. All frames have the size that most cameras have
+// (CommonFrame); the others' views are fitted into it. Error if there are no cameras, or fewer than
+// one frame.
 //
 // Catmull and Rom 1974; centripetal knots: Yuksel, Schaefer and Keyser 2011; the pyramid on the
 // sphere: Schlag, Graphics Gems II, 1991.
 std::vector<Camera> MakeFlight(const PolygonModel& model,
-                               const std::vector<Camera>& cameras,
+                               const std::vector<Camera>& views,
                                int num_frames);
 
 struct OrbitOptions {

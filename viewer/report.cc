@@ -133,6 +133,9 @@ class Report {
       AddFact(std::to_string(Count(Verdict::kAccepted)), "accepted");
       AddFact(std::to_string(Count(Verdict::kReview)), "to be looked at");
       AddFact(std::to_string(Count(Verdict::kRejected)), "left as measured");
+      if (Count(Verdict::kUnreadable) > 0) {
+        AddFact(std::to_string(Count(Verdict::kUnreadable)), "unreadable");
+      }
     }
     if (coverage_) {
       AddFact(FormatShare(coverage_->value("covered_share", 0.0)),
@@ -182,7 +185,13 @@ class Report {
         "<p><span class=\"accepted verdict\">accepted</span>: the model\u2019s edges fit the "
         "picture, within what the field notes allow. <span class=\"review verdict\">review</span>: "
         "used, at lower weight; a person should look. <span class=\"rejected verdict\">rejected"
-        "</span>: no trustworthy fit; the field notes stand, and the photograph is not used.</p>\n";
+        "</span>: no trustworthy fit; the field notes stand, and the photograph is not used.";
+    if (Count(Verdict::kUnreadable) > 0) {
+      body_ +=
+          " <span class=\"unreadable verdict\">unreadable</span>: the picture, its mask or its "
+          "field notes could not be read; mend the file and run again.";
+    }
+    body_ += "</p>\n";
     if (scene_) {
       body_ += "<p>The model\u2019s edges may lie off by " +
                EscapeHtml(DescribeModelSigma(scene_->model)) + ".</p>\n";
@@ -199,15 +208,15 @@ class Report {
         if (!remarks.empty()) remarks += "<br>";
         remarks += EscapeHtml(reason);
       }
-      const bool is_rejected = registration.verdict == Verdict::kRejected;
+      const bool is_corrected = HasCorrection(registration.verdict);
       body_ += "<tr>" +
                TextCell("<a href=\"#" + EscapeHtml(registration.name) + "\">" +
                         EscapeHtml(registration.name) + "</a>") +
                TextCell(VerdictCell(registration.verdict)) +
-               NumberCell(is_rejected ? "\u2013" : FormatNumber(registration.moved_px, 1)) +
+               NumberCell(is_corrected ? FormatNumber(registration.moved_px, 1) : "\u2013") +
                NumberCell(PixelsOf(registration.rms_px)) +
                NumberCell(PixelsOf(registration.robust_sigma_px)) +
-               NumberCell(is_rejected ? "\u2013" : FormatNumber(registration.vertex_sigma_px, 1)) +
+               NumberCell(is_corrected ? FormatNumber(registration.vertex_sigma_px, 1) : "\u2013") +
                NumberCell(std::to_string(registration.num_samples)) + TextCell(remarks) + "</tr>\n";
     }
     body_ += "</tbody></table>\n";
@@ -240,12 +249,8 @@ class Report {
   }
 
   void AddPictures(const Registration& registration) {
-    const Photograph* photograph = nullptr;
-    if (scene_) {
-      for (const Photograph& candidate : scene_->photographs) {
-        if (candidate.name == registration.name) photograph = &candidate;
-      }
-    }
+    if (registration.verdict == Verdict::kUnreadable) return;
+    const Photograph* photograph = scene_ ? FindUsablePhotograph(*scene_, registration.name) : nullptr;
     if (photograph) {
       const Image8 picture =
           ShrunkPicture(ReadSrgb8(photograph->image_file), options_.picture_width_px);
@@ -260,7 +265,7 @@ class Report {
       AddFigure(draw({&measured, nullptr}),
                 registration.name + " with the edges as measured",
                 "as measured");
-      if (registration.verdict != Verdict::kRejected) {
+      if (HasCorrection(registration.verdict)) {
         AddFigure(draw({nullptr, &corrected}),
                   registration.name + " with the edges as corrected",
                   "corrected");
@@ -281,7 +286,7 @@ class Report {
   }
 
   void AddParameters(const Registration& registration) {
-    if (registration.verdict == Verdict::kRejected) return;
+    if (!HasCorrection(registration.verdict)) return;
     const CameraParameters measured = ParametersFromTag(registration.measured);
     const CameraParameters corrected = ParametersFromTag(registration.corrected);
     body_ +=

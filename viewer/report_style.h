@@ -33,6 +33,7 @@ th.n { white-space: normal; }
 .verdict::before { content: ""; display: inline-block; width: .6em; height: .6em;
   border-radius: 50%; margin-right: .45em; background: currentColor; }
 .accepted { color: var(--good); } .review { color: var(--look); } .rejected { color: var(--bad); }
+.unreadable { color: var(--bad); }
 .soft { color: var(--soft); }
 figure { margin: 0; }
 figure img { display: block; width: 100%; height: auto; background: var(--wash); }

@@ -3,7 +3,7 @@
 #include "register/overrule.h"
 
 #include "register/register_photograph.h"
-#include "register/select_photographs.h"
+#include "scene/select_photographs.h"
 #include "tests/register/house.h"
 #include "tests/support/thrown_message.h"
 

@@ -91,20 +91,45 @@ TEST(RegisterScene, TheNumberOfThreadsDoesNotChangeTheResult) {
   EXPECT_EQ(one, FormatRegistrations(RegisterScene(scene, {}, {}, {}).registrations));
 }
 
-TEST(RegisterScene, AMaskOfAnotherSizeIsAnError) {
+TEST(RegisterScene, WhatCannotBeReadIsAVerdictAndNotTheEnd) {
   Scene scene = ReadScene(BrickFolder());
-  scene.photographs.resize(1);
+  scene.photographs.resize(3);
   const TemporaryFolder folder;
   scene.photographs[0].mask_file = folder / "s1.png";
   WriteLabels(*scene.photographs[0].mask_file, Image16(30, 20, 1));
-  try {
-    RegisterScene(scene, {}, {}, {});
-    FAIL();
-  } catch (const std::exception& error) {
-    EXPECT_NE(std::string(error.what()).find("mask is 30x20, but its photograph is 1200x800"),
-              std::string::npos)
-        << error.what();
-  }
+  // Gone since the scene was read.
+  scene.photographs[1].image_file = folder / "s2.jpg";
+  scene.unreadable.push_back(
+      {{.name = "s9"}, {(scene.folder / "images/s9.jpg").string() + ": no"}});
+  RegisterOptions options;
+  options.overrule.accept = {"s1", "s9"};  // nobody can accept what is not there
+  const std::vector<Registration> found = RegisterScene(scene, {}, options, {}).registrations;
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[0].verdict, Verdict::kUnreadable);
+  EXPECT_NE(found[0].reasons.at(0).find("mask is 30x20, but its photograph is 1200x800"),
+            std::string::npos);
+  EXPECT_EQ(found[1].verdict, Verdict::kUnreadable);
+  EXPECT_NE(found[1].reasons.at(0).find("s2.jpg"), std::string::npos);
+  EXPECT_NE(found[2].verdict, Verdict::kUnreadable);
+  EXPECT_EQ(found[3].name, "s9");
+  EXPECT_EQ(found[3].verdict, Verdict::kUnreadable);
+  // The same bytes wherever the scene lies.
+  EXPECT_EQ(found[3].reasons, std::vector<std::string>{"images/s9.jpg: no"});
+}
+
+TEST(RegisterScene, WithoutACommonSolutionEachKeepsItsOwn) {
+  Scene scene = ReadScene(BrickFolder());
+  scene.photographs.resize(2);
+  RegisterOptions options;
+  options.independent = true;
+  const RegisteredScene alone = RegisterScene(scene, {}, options, {});
+  options.independent = false;
+  options.joint.ground_level_m = 1e200;  // its square is beyond all numbers
+  const RegisteredScene together = RegisterScene(scene, {}, options, {});
+  EXPECT_EQ(FormatRegistrations(together.registrations), FormatRegistrations(alone.registrations));
+  ASSERT_EQ(together.warnings.size(), 1u);
+  EXPECT_NE(together.warnings[0].find("could not be refined together"), std::string::npos);
+  EXPECT_TRUE(alone.warnings.empty());
 }
 
 TEST(RegistrationOutput, CorrectedTagsAndColmapCamerasAgree) {

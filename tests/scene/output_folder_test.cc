@@ -41,16 +41,36 @@ TEST(PrepareOutputFolder, RefusesAnybodyElses) {
       std::string::npos);
 }
 
-TEST(HasManifest, OnlyForTheSameInputsAndOptions) {
+TEST(PrepareOutputFolder, AFolderThatAnotherRunWritesIntoIsRefused) {
   const TemporaryFolder folder;
+  {
+    const FolderLock first = PrepareOutputFolder(folder / "out");
+    // The system tells two openings of a folder apart, in one process too.
+    EXPECT_NE(ThrownMessage([&] {
+                PrepareOutputFolder(folder / "out");
+              }).find("another groundglass is at work in this folder"),
+              std::string::npos);
+    PrepareOutputFolder(folder / "other");
+  }
+  PrepareOutputFolder(folder / "out");
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "out")) << "the lock leaves no file";
+}
+
+TEST(Manifest, KeepsTheStages) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(ReadStages(folder.path()).empty());
   Manifest manifest;
-  manifest.command = "run";
-  manifest.sha256_of_inputs["model.osu"] = "00";
-  EXPECT_FALSE(HasManifest(folder.path(), manifest));
+  manifest.stages = {{"register", "00", true, {"registration.json", "views/s1.view"}},
+                     {"texture", "01", false, {}}};
   WriteManifest(folder.path(), manifest);
-  EXPECT_TRUE(HasManifest(folder.path(), manifest));
-  manifest.sha256_of_inputs["model.osu"] = "01";
-  EXPECT_FALSE(HasManifest(folder.path(), manifest));
+  const std::vector<StageRecord> stages = ReadStages(folder.path());
+  ASSERT_EQ(stages.size(), 2u);
+  EXPECT_EQ(stages[0].key, "00");
+  EXPECT_TRUE(stages[0].is_complete);
+  EXPECT_EQ(stages[0].files, manifest.stages[0].files);
+  EXPECT_FALSE(stages[1].is_complete);
+  folder.Write("manifest.json", "{\"program\": \"groundglass\", \"stages\": 3}");
+  EXPECT_TRUE(ReadStages(folder.path()).empty());
 }
 
 }  // namespace

@@ -173,6 +173,22 @@ TEST(RegistrationFile, KeepsWhereTheModelIsOff) {
   EXPECT_NE(ReadTextFile(file).find("-0.25"), std::string::npos);
 }
 
+TEST(RegistrationFile, AnUnreadablePhotographHasNameAndReasons) {
+  Registration registration;
+  registration.name = "s2";
+  registration.verdict = Verdict::kUnreadable;
+  registration.reasons = {"images/s2.jpg: this image is damaged"};
+  const TemporaryFolder folder;
+  const auto file =
+      folder.Write("registration.json", FormatRegistrations({registration}, {}, {"a warning"}));
+  const std::vector<Registration> read = ReadRegistrations(file);
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].name, "s2");
+  EXPECT_EQ(read[0].verdict, Verdict::kUnreadable);
+  EXPECT_EQ(read[0].reasons, registration.reasons);
+  EXPECT_EQ(ReadRegistrationWarnings(file), std::vector<std::string>{"a warning"});
+}
+
 TEST(RegistrationFile, BadOnesGiveOneLine) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& text) {

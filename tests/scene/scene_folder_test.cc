@@ -74,13 +74,88 @@ TEST(ReadScene, TakesAnotherModelAndUnit) {
   EXPECT_EQ(scene.model.unit, LengthUnit::kMetre);
 }
 
-TEST(ReadScene, ThrowsTheFirstFault) {
+TEST(ReadScene, ThrowsTheFirstFaultOfTheWhole) {
   EXPECT_EQ(ThrownMessage([] { ReadScene("no/such/scene"); }),
             "no/such/scene: no such scene folder");
   const SceneFolder folder;
+  std::filesystem::remove(folder / "model.osu");
   folder.Write("views/s2.view", "x 1");
+  EXPECT_THAT(ThrownMessage([&] { ReadScene(folder.path()); }), HasSubstr("no model; expected"));
+}
+
+TEST(ReadScene, OnePhotographThatCannotBeReadIsSetApart) {
+  const std::string damaged = [] {
+    const SceneFolder folder;
+    const std::string whole = ReadTextFile(folder / "images/s2.jpg");
+    return whole.substr(0, whole.size() / 2);
+  }();
+  struct Case {
+    const char* file;
+    std::string bytes;
+    const char* reason;
+  };
+  for (const Case& spoilt :
+       {Case{"images/s2.jpg", damaged, "images/s2.jpg: this image is damaged"},
+        Case{"images/s2.jpg", "", "images/s2.jpg: "},
+        Case{"images/s2.jpg", "<html>not found</html>", "images/s2.jpg: "},
+        Case{"images/s2.png", "second of this name", "two images have the stem 's2'"},
+        Case{"views/s2.view", "x 1", "views/s2.view: key 'y' is missing"},
+        Case{"views/s2.view", "", "views/s2.view: key 'x' is missing"},
+        Case{"masks/s2.png", "no mask", "masks/s2.png: "},
+        Case{"faces/s2.png", "", "faces/s2.png: "}}) {
+    const SceneFolder folder;
+    folder.Write(spoilt.file, spoilt.bytes);
+    const Scene scene = ReadScene(folder.path());
+    ASSERT_EQ(scene.photographs.size(), 1u) << spoilt.file;
+    EXPECT_EQ(scene.photographs[0].name, "s10");
+    ASSERT_EQ(scene.unreadable.size(), 1u) << spoilt.file;
+    EXPECT_EQ(scene.unreadable[0].photograph.name, "s2");
+    EXPECT_THAT(scene.unreadable[0].reasons, Contains(HasSubstr(spoilt.reason)));
+    EXPECT_THAT(scene.warnings, IsEmpty()) << spoilt.file;
+    // `check` tells the same.
+    EXPECT_THAT(CheckScene(folder.path()).faults, Contains(HasSubstr(spoilt.reason)));
+  }
+}
+
+TEST(ReadScene, FaultsOfPhotographsThatAreNotAskedForDoNotMatter) {
+  const SceneFolder folder;
+  folder.Write("images/s2.jpg", "");
+  folder.Write("views/s2.view", "x 1");
+  SceneOptions options;
+  options.only = {"s10"};
+  EXPECT_THAT(ReadScene(folder.path(), options).unreadable, IsEmpty());
+  options = {};
+  options.exclude = {"s2.jpg"};
+  const Scene scene = ReadScene(folder.path(), options);
+  EXPECT_THAT(scene.unreadable, IsEmpty());
+  EXPECT_EQ(scene.photographs.size(), 1u);
+  // Excluding a sound one says nothing of whether it is registered.
+  options.exclude = {"s10"};
+  EXPECT_EQ(ReadScene(folder.path(), options).photographs.size(), 1u);
+  options.exclude = {"s99"};
+  EXPECT_EQ(ThrownMessage([&] { ReadScene(folder.path(), options); }),
+            "option --exclude: no photograph is called 's99'; there are s2 s10");
+}
+
+TEST(ReadScene, WithoutAnyPhotographThatCanBeReadTheFirstReasonsAreTold) {
+  const SceneFolder folder;
+  folder.Write("images/s2.jpg", "");
+  folder.Write("views/s10.view", "x 1");
   EXPECT_THAT(ThrownMessage([&] { ReadScene(folder.path()); }),
-              HasSubstr("views/s2.view: key 'y' is missing"));
+              AllOf(HasSubstr("images/s2.jpg: "), HasSubstr("views/s10.view: key 'y'")));
+  SceneOptions options;
+  options.only = {"s2"};
+  EXPECT_THAT(ThrownMessage([&] { ReadScene(folder.path(), options); }),
+              AllOf(HasSubstr("images/s2.jpg: "), testing::Not(HasSubstr("s10"))));
+}
+
+TEST(ReadScene, AFaultyTagWithoutAPhotographIsAWarning) {
+  const SceneFolder folder;
+  folder.Write("views/s99.view", "x 1");
+  const Scene scene = ReadScene(folder.path());
+  EXPECT_EQ(scene.photographs.size(), 2u);
+  EXPECT_THAT(scene.unreadable, IsEmpty());
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("views/s99.view: key 'y' is missing")));
 }
 
 TEST(CheckScene, SoundSceneHasNothingToTell) {
@@ -106,12 +181,13 @@ TEST(CheckScene, TellsEveryFaultInOneGo) {
   EXPECT_THAT(faults, Contains(HasSubstr("model.osu:7: face 2 has point 2 more than once")));
   EXPECT_THAT(faults, Contains(HasSubstr("views/s2.view:1: unknown key 'pan'")));
   EXPECT_THAT(faults, Contains(HasSubstr("views/s3.view: key 'v' is missing")));
+  EXPECT_THAT(faults, Contains(HasSubstr("images/s3.jpg: cannot read this as an image")));
   EXPECT_THAT(faults, Contains(HasSubstr("images/s4.png: cannot read this as an image")));
   EXPECT_THAT(faults, Contains(HasSubstr("images/s10.jpg: this image is damaged")));
   EXPECT_THAT(
       faults,
       Contains(HasSubstr("faces/s10.png: mask has 20 x 20 pixels, its photograph 30 x 20")));
-  EXPECT_EQ(faults.size(), 7u);
+  EXPECT_EQ(faults.size(), 8u);
   for (const std::string& fault : faults) EXPECT_EQ(fault.find('\n'), std::string::npos);
 }
 
@@ -353,6 +429,28 @@ TEST(TagTable, FaultsNameLineAndColumn) {
   EXPECT_THAT(faults(header + "s2,1,,3,4,5,6,1.5,40\n"),
               Contains(HasSubstr("tags.csv:2: key 'y' is missing")));
   EXPECT_THAT(faults(""), Contains(HasSubstr("tags.csv: no header")));
+}
+
+TEST(TagTable, ARowThatCannotBeReadCostsItsOwnPhotographOnly) {
+  const std::string good = "s10,5,20,2,5,0,2,1.5,40\n";
+  const std::string header = "image,x,y,z,i,j,k,a,v\n";
+  for (const std::string bad : {"s2,5,twenty,2,5,0,2,1.5,40\n",
+                                "s2,5,20,2,5,0,2,1.5,240\n",
+                                "s2.jpg,5,20\n",
+                                "s2,5,20,2,5,0,2,1.5,40\ns2,5,20,2,5,0,2,1.5,40\n"}) {
+    const TableFolder folder(header + bad + good);
+    const Scene scene = ReadScene(folder.path());
+    ASSERT_EQ(scene.photographs.size(), 1u) << bad;
+    ASSERT_EQ(scene.unreadable.size(), 1u) << bad;
+    EXPECT_EQ(scene.unreadable[0].photograph.name, "s2");
+    EXPECT_THAT(scene.unreadable[0].reasons, Contains(HasSubstr("tags.csv:")));
+  }
+  // Whose row it is nobody knows: the photograph is untagged, and both are told.
+  const TableFolder folder(header + ",5,20,2,5,0,2,1.5,40\n" + good);
+  const Scene scene = ReadScene(folder.path());
+  EXPECT_EQ(scene.photographs.size(), 1u);
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("tags.csv:2: column 'image' is empty")));
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("images/s2.jpg: photograph without a tag")));
 }
 
 TEST(ReadScene, ReadsTheBrickScene) {

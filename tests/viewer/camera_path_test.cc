@@ -82,6 +82,55 @@ TEST(CameraPath, OneViewIsAStandingFilm) {
   }
 }
 
+// Photographs that lie, stand, and were scanned twice as large.
+std::vector<Camera> MixedSizes() {
+  return {MakeCamera({0, -9, 1}, {0, 0, 0}, 320, 240, 300),
+          MakeCamera({10, -2, 2}, {0, 0, 0}, 240, 320, 300),
+          MakeCamera({1, 8, 1}, {0.5, 0, 0}, 320, 240, 300),
+          MakeCamera({-9, 1, 3}, {0, 0, 0}, 640, 480, 600)};
+}
+
+TEST(CameraPath, ViewsOfSeveralSizesFlyInTheFrameThatMostHave) {
+  const std::vector<Camera> cameras = MixedSizes();
+  const std::vector<Camera> path = MakeFlight(MakeCheckeredBox().model, cameras, 200);
+  for (const Camera& frame : path) {
+    EXPECT_EQ(frame.width_px, 320);
+    EXPECT_EQ(frame.height_px, 240);
+  }
+  ExpectSameCamera(path.front(), cameras.front());
+  // The same lens on a scan twice as large.
+  ExpectSameCamera(path.back(), MakeCamera({-9, 1, 3}, {0, 0, 0}, 320, 240, 300));
+}
+
+TEST(CameraPath, TheCommonFrameIsTheOneOfMostOrTheLargest) {
+  std::vector<Camera> cameras = MixedSizes();
+  EXPECT_EQ(CommonFrame(cameras).width, 320);
+  EXPECT_EQ(CommonFrame(cameras).height, 240);
+  cameras.erase(cameras.begin());
+  EXPECT_EQ(CommonFrame(cameras).width, 640);
+  cameras.pop_back();
+  EXPECT_EQ(CommonFrame(cameras).width, 320) << "lying, not upright";
+  EXPECT_EQ(CommonFrame({}).width, 0);
+}
+
+TEST(CameraPath, AFittedCameraHoldsAllThatItsOwnFrameHolds) {
+  Camera upright = MakeCamera({0, -9, 1}, {0, 0, 0}, 240, 320, 300);
+  upright.center_x_px += 6;
+  upright.center_y_px -= 9;
+  upright.focal_y_px = 330;
+  const Camera fitted = FittedCamera(upright, 320, 240);
+  EXPECT_EQ(fitted.PositionInWorld(), upright.PositionInWorld());
+  EXPECT_EQ(fitted.ForwardInWorld(), upright.ForwardInWorld());
+  EXPECT_DOUBLE_EQ(fitted.focal_x_px, fitted.focal_y_px);
+  const auto seen_at = [&](double x_px, double y_px) {
+    return *ProjectFromCam(fitted, UnprojectToCam(upright, {x_px, y_px}));
+  };
+  EXPECT_NEAR(seen_at(0, 0).y(), 0, 1e-9);
+  EXPECT_NEAR(seen_at(240, 320).y(), 240, 1e-9);
+  EXPECT_NEAR(seen_at(0, 0).x() + seen_at(240, 0).x(), 320, 1e-9);
+  EXPECT_GT(seen_at(0, 0).x(), 0);
+}
+
 TEST(CameraPath, NoViewsAreAnError) {
   EXPECT_THROW(MakeFlight(MakeCheckeredBox().model, {}, 10), Error);
 }

@@ -3,6 +3,7 @@
 #include "viewer/film.h"
 
 #include "scene/error.h"
+#include "tests/support/small_disk.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/viewer/sample_models.h"
 
@@ -34,6 +35,17 @@ class Film : public testing::Test {
 };
 
 bool HasFfmpeg() { return std::system("ffmpeg -version > /dev/null 2>&1") == 0; }
+
+TEST_F(Film, AFullDiskIsAnErrorAndLeavesNothing) {
+  if (!HasFfmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  std::string message;
+  {
+    const SmallDisk disk(300);
+    message = MessageOf(64, {});
+  }
+  EXPECT_THAT(message, testing::HasSubstr("film: ffmpeg failed: "));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
+}
 
 TEST_F(Film, IsWrittenTwiceWithTheSameBytes) {
   if (!HasFfmpeg()) GTEST_SKIP() << "ffmpeg is not installed";

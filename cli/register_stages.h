@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "cli/register_arguments.h"
+#include "scene/output_stages.h"
+
+#include <string>
+
+namespace groundglass {
+
+// The stages that `register` and `run` share. `key`: StageKey of the registration's inputs. What is
+// there already with this key is kept.
+constexpr const char* kRegisterStage = "register";
+constexpr const char* kOverlayStage = "overlays";
+
+// Corrected tags: views/, registration.json and cameras/.
+RegisteredScene EnsureRegistered(const Scene& scene,
+                                 const RegisterArguments& arguments,
+                                 const CommonOptions& common,
+                                 const std::string& key,
+                                 OutputStages& stages);
+
+// overlays/: the model's edges over each photograph.
+void EnsureOverlays(const Scene& scene,
+                    const RegisteredScene& registered,
+                    const RegisterArguments& arguments,
+                    const CommonOptions& common,
+                    const std::string& key,
+                    OutputStages& stages);
+
+}  // namespace groundglass
