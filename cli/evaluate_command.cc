@@ -55,7 +55,11 @@ int EvaluateFound(const EvaluateArguments& arguments) {
   model_options.unit = arguments.common.unit;
   const fs::path model_file =
       arguments.model.empty() ? FindModel(arguments.truth) : fs::path(arguments.model);
-  const PolygonModel model = ReadModel(model_file, model_options).model;
+  const ModelReading reading = ReadModel(model_file, model_options);
+  for (const std::string& warning : reading.warnings) {
+    std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
+  }
+  const PolygonModel& model = reading.model;
   EvaluateOptions options;
   options.render = [](const TexturedModel& textured, const Camera& camera) {
     RenderOptions render_options;
@@ -68,7 +72,8 @@ int EvaluateFound(const EvaluateArguments& arguments) {
   if (!arguments.plot_file.empty()) {
     WriteFileAtomically(
         arguments.plot_file,
-        FormatErrorPlot(PlotPointsOf(evaluation), "Errors of " + arguments.found, UnitName(model.unit)));
+        FormatErrorPlot(
+            PlotPointsOf(evaluation), "Errors of " + arguments.found, UnitName(model.unit)));
   }
   std::fputs(arguments.common.json ? FormatEvaluationJson(evaluation, model).c_str()
                                    : FormatEvaluationTable(evaluation, model).c_str(),

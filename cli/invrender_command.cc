@@ -140,7 +140,11 @@ int RunInvrender(const InvrenderArguments& arguments) {
   BakeOptions options = arguments.bake.Options();
   options.on_face_mask = FaceMaskWriter(arguments.out_folder);
   if (arguments.earlier_model_file) {
-    options.as_photographed = ReadModel(*arguments.earlier_model_file, scene_options.model).model;
+    ModelReading earlier = ReadModel(*arguments.earlier_model_file, scene_options.model);
+    for (const std::string& warning : earlier.warnings) {
+      std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
+    }
+    options.as_photographed = std::move(earlier.model);
   }
   const BakeResult result =
       BakeTextures(scene.model, photographs, options, MakeProgress(arguments.common, "texture"));

@@ -105,10 +105,10 @@ void EvaluateMasks(const fs::path& found,
   for (const NamedCamera& camera : truth.cameras) {
     const fs::path file = found / "faces" / (camera.name + ".png");
     if (!fs::exists(file)) continue;
-    AddMaskOverlaps(
-        KnownLabelsFromNumbers(model, ReadLabels(truth.masks_model_folder / (camera.name + ".png"))),
-        KnownLabelsFromNumbers(model, ReadLabels(file)),
-        evaluation.faces);
+    AddMaskOverlaps(KnownLabelsFromNumbers(
+                        model, ReadLabels(truth.masks_model_folder / (camera.name + ".png"))),
+                    KnownLabelsFromNumbers(model, ReadLabels(file)),
+                    evaluation.faces);
   }
 }
 

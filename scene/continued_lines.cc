@@ -48,9 +48,7 @@ std::string_view ContinuedLines::keyword() const {
   return line_.substr(0, line_.find_first_of(kBlanks));
 }
 
-std::string_view ContinuedLines::rest() const {
-  return TrimBlanks(line_.substr(keyword().size()));
-}
+std::string_view ContinuedLines::rest() const { return TrimBlanks(line_.substr(keyword().size())); }
 
 std::vector<std::string_view> ContinuedLines::arguments() const {
   std::string_view rest_of_line = rest();

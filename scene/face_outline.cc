@@ -206,8 +206,7 @@ class OutlineParter {
     };
     std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return left(a) < left(b); });
     for (size_t u = 0; u < order.size(); ++u) {
-      for (size_t v = u + 1;
-           v < order.size() && left(order[v]) <= right(order[u]) + tolerance_;
+      for (size_t v = u + 1; v < order.size() && left(order[v]) <= right(order[u]) + tolerance_;
            ++v) {
         const size_t i = std::min(order[u], order[v]);
         const size_t k = std::max(order[u], order[v]);
@@ -247,8 +246,8 @@ class OutlineParter {
       // covers itself there.
       if (best == sides_.size() || taken_by[best] >= 0) {
         const size_t other = best == sides_.size() ? i : static_cast<size_t>(taken_by[best]);
-        result.meeting = std::array<OutlineSide, 2>{sides_[std::min(i, other)],
-                                                    sides_[std::max(i, other)]};
+        result.meeting =
+            std::array<OutlineSide, 2>{sides_[std::min(i, other)], sides_[std::max(i, other)]};
         return;
       }
       taken_by[best] = static_cast<int>(i);
@@ -368,11 +367,11 @@ bool IsBlocked(const Eigen::Vector2d& a,
 void JoinHole(const std::vector<Eigen::Vector2d>& outline,
               std::vector<int> hole,
               std::vector<int>& joined) {
-  std::rotate(hole.begin(),
-              std::max_element(hole.begin(),
-                               hole.end(),
-                               [&](int a, int b) { return outline[a].x() < outline[b].x(); }),
-              hole.end());
+  std::rotate(
+      hole.begin(),
+      std::max_element(
+          hole.begin(), hole.end(), [&](int a, int b) { return outline[a].x() < outline[b].x(); }),
+      hole.end());
   const Eigen::Vector2d from = outline[hole[0]];
   const size_t n = joined.size();
   std::vector<std::pair<double, size_t>> candidates;
@@ -442,9 +441,8 @@ std::vector<std::vector<int>> BridgeHoles(const std::vector<Eigen::Vector2d>& ou
       for (const int corner : hole.corners) right = std::max(right, outline[corner].x());
       holes.emplace_back(right, &hole.corners);
     }
-    std::stable_sort(holes.begin(), holes.end(), [](const auto& a, const auto& b) {
-      return a.first > b.first;
-    });
+    std::stable_sort(
+        holes.begin(), holes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     for (const auto& [right, corners] : holes) JoinHole(outline, *corners, joined);
   }
   return outlines;

@@ -30,8 +30,10 @@ class AccessorReader {
     std::vector<double> values;
     if (accessor.bufferView >= 0) {
       const size_t size = ComponentSize(accessor.componentType);
-      const Elements elements = Find(
-          accessor.bufferView, accessor.byteOffset, size * static_cast<size_t>(width), accessor.count);
+      const Elements elements = Find(accessor.bufferView,
+                                     accessor.byteOffset,
+                                     size * static_cast<size_t>(width),
+                                     accessor.count);
       values.reserve(num_values);
       for (size_t i = 0; i < accessor.count; ++i) {
         for (int c = 0; c < width; ++c) {
@@ -65,8 +67,8 @@ class AccessorReader {
       FailGltf(file_, "an accessor reaches beyond its buffer");
     }
     const size_t begin = view.byteOffset + offset;
-    if (count > 0 && (element > available - begin ||
-                      count - 1 > (available - begin - element) / stride)) {
+    if (count > 0 &&
+        (element > available - begin || count - 1 > (available - begin - element) / stride)) {
       FailGltf(file_, "an accessor reaches beyond its buffer");
     }
     return {buffer.data.data() + begin, stride};
@@ -110,8 +112,10 @@ class AccessorReader {
     const size_t index_size = ComponentSize(sparse.indices.componentType);
     const size_t value_size = ComponentSize(accessor.componentType);
     const size_t element = value_size * static_cast<size_t>(width);
-    const Elements indices = Find(
-        sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset), index_size, count);
+    const Elements indices = Find(sparse.indices.bufferView,
+                                  static_cast<size_t>(sparse.indices.byteOffset),
+                                  index_size,
+                                  count);
     const Elements exceptions = Find(
         sparse.values.bufferView, static_cast<size_t>(sparse.values.byteOffset), element, count);
     for (size_t i = 0; i < count; ++i) {
@@ -122,9 +126,10 @@ class AccessorReader {
       }
       for (int c = 0; c < width; ++c) {
         values[static_cast<size_t>(place) * static_cast<size_t>(width) + static_cast<size_t>(c)] =
-            Component(exceptions.begin + i * exceptions.stride + static_cast<size_t>(c) * value_size,
-                      accessor.componentType,
-                      accessor.normalized);
+            Component(
+                exceptions.begin + i * exceptions.stride + static_cast<size_t>(c) * value_size,
+                accessor.componentType,
+                accessor.normalized);
       }
     }
   }

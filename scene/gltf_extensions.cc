@@ -94,8 +94,7 @@ Eigen::Vector2d GltfTextureUse::operator*(const Eigen::Vector2d& uv) const {
   const double c = std::cos(rotation_rad);
   const double s = std::sin(rotation_rad);
   // Counterclockwise, where v runs downwards.
-  return offset +
-         Eigen::Vector2d(c * scaled.x() + s * scaled.y(), c * scaled.y() - s * scaled.x());
+  return offset + Eigen::Vector2d(c * scaled.x() + s * scaled.y(), c * scaled.y() - s * scaled.x());
 }
 
 GltfTextureUse FindTextureUse(const tinygltf::TextureInfo& texture) {

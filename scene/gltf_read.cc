@@ -205,9 +205,8 @@ class GltfReader {
     std::vector<double> uv;
     const int texture = TextureImage(primitive.material);
     if (texture >= 0) {
-      const GltfTextureUse use =
-          FindTextureUse(At(gltf_.materials, primitive.material, "material")
-                             .pbrMetallicRoughness.baseColorTexture);
+      const GltfTextureUse use = FindTextureUse(At(gltf_.materials, primitive.material, "material")
+                                                    .pbrMetallicRoughness.baseColorTexture);
       const auto texture_points =
           primitive.attributes.find("TEXCOORD_" + std::to_string(use.texture_points));
       if (texture_points != primitive.attributes.end()) {
@@ -364,7 +363,8 @@ class GltfReader {
     for (const std::string& name : unread_textures_) {
       if (!with_pages) break;
       reading_.warnings.push_back(
-          Error(file_, "pictures of the kind " + Quote(name) + " are not read; their faces are grey")
+          Error(file_,
+                "pictures of the kind " + Quote(name) + " are not read; their faces are grey")
               .what());
     }
     for (size_t image = 0; image < faults.size(); ++image) {

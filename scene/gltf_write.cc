@@ -71,8 +71,7 @@ class GlbWriter {
   void AddNotes() {
     tinygltf::Value::Object notes;
     const PolygonModel& model = textured_.model;
-    notes["groundglass_unit"] =
-        tinygltf::Value(UnitName(model.unit));
+    notes["groundglass_unit"] = tinygltf::Value(UnitName(model.unit));
     if (model.georeference) {
       const Georeference& place = *model.georeference;
       notes["groundglass_origin"] =

@@ -14,7 +14,7 @@ namespace groundglass {
 
 // What a material of an OBJ file's library shows.
 struct Material {
-  std::string picture;  // as written; empty if it has none
+  std::string picture;           // as written; empty if it has none
   std::filesystem::path folder;  // of the library
   // Texture points are scaled, then moved (`-s` and `-o`).
   Eigen::Vector2d scale = Eigen::Vector2d::Ones();

@@ -140,8 +140,10 @@ class FaceMender {
          repeated_.size() == 1
              ? "1 face repeats a corner or closes its ring; the corner is dropped: " +
                    Place(repeated_[0])
-             : count + " faces repeat a corner or close their ring; these corners are dropped; "
-                       "the first: " + Place(repeated_[0]));
+             : count +
+                   " faces repeat a corner or close their ring; these corners are dropped; "
+                   "the first: " +
+                   Place(repeated_[0]));
   }
 
   void TellTurned() {
@@ -152,7 +154,8 @@ class FaceMender {
                    Place(turned_[0])
              : std::to_string(turned_.size()) +
                    " faces have a hole that runs the same way round as its outline; it is turned; "
-                   "the first: " + Place(turned_[0]));
+                   "the first: " +
+                   Place(turned_[0]));
   }
 
   // One number for all points at exactly the same place.
@@ -198,7 +201,7 @@ class FaceMender {
     }
     std::sort(hashes.begin(), hashes.end());
     std::vector<int> first_of(model_.faces.size(), -1);  // of a double, the face that is kept
-    std::vector<int> alike;  // faces with this hash that are no doubles
+    std::vector<int> alike;                              // faces with this hash that are no doubles
     for (size_t i = 0; i < hashes.size(); ++i) {
       const auto& [hash, face] = hashes[i];
       if (i > 0 && hashes[i - 1].first != hash) alike.clear();
@@ -213,19 +216,18 @@ class FaceMender {
     for (const int face : mended_.usable) {
       if (first_of[face] < 0) continue;
       if (num_doubles++ == 0) example = face;
-      if (ComputeFacePlane(model_, face).normal_in_world.dot(
-              ComputeFacePlane(model_, first_of[face]).normal_in_world) < 0) {
+      if (ComputeFacePlane(model_, face)
+              .normal_in_world.dot(ComputeFacePlane(model_, first_of[face]).normal_in_world) < 0) {
         ++num_opposite;
       }
     }
     if (num_doubles == 0) return;
     std::erase_if(mended_.usable, [&](int face) { return first_of[face] >= 0; });
-    std::string message =
-        std::to_string(num_doubles) +
-        (num_doubles == 1 ? " face lies twice and is kept once"
-                          : " faces lie twice and are kept once") +
-        ", the first of each: " + DescribeFace(model_, first_of[example]) + " is also " +
-        Place(example);
+    std::string message = std::to_string(num_doubles) +
+                          (num_doubles == 1 ? " face lies twice and is kept once"
+                                            : " faces lie twice and are kept once") +
+                          ", the first of each: " + DescribeFace(model_, first_of[example]) +
+                          " is also " + Place(example);
     if (num_opposite == num_doubles) {
       message += "; they lie back to back, and the first one's front counts";
     } else if (num_opposite > 0) {

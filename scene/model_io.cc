@@ -70,8 +70,7 @@ TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
       throw Error(mended.faults.empty() ? Error(file, "this model has no faces").what()
                                         : mended.warnings.back());
     }
-    result.warnings.insert(
-        result.warnings.end(), mended.warnings.begin(), mended.warnings.end());
+    result.warnings.insert(result.warnings.end(), mended.warnings.begin(), mended.warnings.end());
     KeepFaces(mended.usable, model, textures);
   }
   if (options.unit && extension != ".glb" && extension != ".gltf") {

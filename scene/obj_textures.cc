@@ -60,7 +60,8 @@ class ObjTexturer {
     if (!is_new) return picture.page;
     const auto found = FindNamedFile(material.folder, material.picture);
     if (!found) {
-      picture.fault = Error(file_, "the picture " + Quote(material.picture) + " is not there").what();
+      picture.fault =
+          Error(file_, "the picture " + Quote(material.picture) + " is not there").what();
       return -1;
     }
     try {

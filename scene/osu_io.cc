@@ -50,9 +50,8 @@ void ReadModelComments(const std::filesystem::path& name,
       const std::string unit = words->empty() ? "" : LowerCase(words->front().text);
       const std::optional<LengthUnit> known = FindUnit(unit);
       if (!known) {
-        throw Error(name,
-                    line.number,
-                    "unit " + Quote(unit) + " is not known; expected " + UnitNames());
+        throw Error(
+            name, line.number, "unit " + Quote(unit) + " is not known; expected " + UnitNames());
       }
       model.unit = *known;
       model.is_unit_assumed = false;

@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
-// TinyGLTF under a name of our own: its header is compiled here (own_tiny_gltf.cc), and nothing else
-// of it is linked. Other libraries (Draco's is one) export a TinyGLTF of another version, with
+// TinyGLTF under a name of our own: its header is compiled here (own_tiny_gltf.cc), and nothing
+// else of it is linked. Other libraries (Draco's is one) export a TinyGLTF of another version, with
 // another memory layout, and a program that links them too would call theirs.
 // Pictures are ours to read and write, so it needs no stb.
 #define TINYGLTF_NO_STB_IMAGE

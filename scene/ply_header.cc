@@ -122,8 +122,9 @@ class HeaderReader {
     const auto type_of = [&](std::string_view word) {
       const auto type = FindType(word);
       if (!type) {
-        Fail(Quote(word) + " is no type of a property; expected char, uchar, short, ushort, int, "
-                           "uint, float or double");
+        Fail(Quote(word) +
+             " is no type of a property; expected char, uchar, short, ushort, int, "
+             "uint, float or double");
       }
       return *type;
     };

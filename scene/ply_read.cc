@@ -35,8 +35,7 @@ class PlyNumbers {
     const double count = Next(type, what);
     const size_t least = is_ascii_ ? 2 : PlyTypeSize(item_type);
     const size_t left = is_ascii_ ? words_.NumBytesLeft() + 1 : left_.size();
-    if (!(count >= 0) || count != std::floor(count) ||
-        count > static_cast<double>(left / least)) {
+    if (!(count >= 0) || count != std::floor(count) || count > static_cast<double>(left / least)) {
       Fail(what + " has " + FormatNumber(count) + " numbers, which the file does not hold");
     }
     return static_cast<size_t>(count);
@@ -47,9 +46,7 @@ class PlyNumbers {
     throw Error(file_, message);
   }
 
-  bool HasMore() {
-    return is_ascii_ ? !words_.Next().empty() : !left_.empty();
-  }
+  bool HasMore() { return is_ascii_ ? !words_.Next().empty() : !left_.empty(); }
 
  private:
   double NextWord(const std::string& what) {

@@ -130,15 +130,15 @@ void ReadBinary(std::string_view bytes,
   if (count > held) {
     throw Error(file,
                 "cannot read this model: its header counts " + std::to_string(count) +
-                    " triangles, but the file ends after " +
-                    std::to_string(held) + "; it is cut short or damaged");
+                    " triangles, but the file ends after " + std::to_string(held) +
+                    "; it is cut short or damaged");
   }
   const size_t end = kStartBytes + count * kTriangleBytes;
   if (end < bytes.size()) {
-    warnings.push_back(Error(file,
-                             std::to_string(bytes.size() - end) +
-                                 " bytes after the last triangle are not read")
-                           .what());
+    warnings.push_back(
+        Error(file,
+              std::to_string(bytes.size() - end) + " bytes after the last triangle are not read")
+            .what());
   }
   for (size_t i = 0; i < count; ++i) {
     const size_t at = kStartBytes + i * kTriangleBytes + 12;

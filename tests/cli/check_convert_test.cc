@@ -76,6 +76,36 @@ TEST(Check, DrawsTheMeasuredTags) {
   EXPECT_GT(fs::file_size(work / "overlays" / "s1.jpg"), 10000u);
 }
 
+TEST(Convert, TellsWhatWasMendedInAModel) {
+  const TemporaryFolder work;
+  const std::string models = std::string(GROUNDGLASS_SOURCE_DIR) + "/tests/data/models";
+  const ProgramRun run =
+      RunProgram({"convert", models + "/doubled_faces.osu", (work / "m.glb").string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("108 points, 70 faces"));
+  EXPECT_THAT(run.err, HasSubstr("warning: "));
+  EXPECT_THAT(run.err, HasSubstr("70 faces lie twice"));
+}
+
+TEST(Render, AModelWithoutItsPictureIsGreyAndSaysSo) {
+  const TemporaryFolder work;
+  const fs::path source = fs::path(GROUNDGLASS_SOURCE_DIR) / "tests/data/models/mtl with blanks";
+  fs::copy_file(source / "mtl with blanks.obj", work / "wall.obj");
+  fs::copy_file(source / "my building.mtl", work / "my building.mtl");
+  WriteAll(work / "s1.view", "x 5\ny 12\nz 2\ni 5\nj 0\nk 2\na 1.5\nv 60\n");
+  const ProgramRun run = RunProgram({"render",
+                                     (work / "wall.obj").string(),
+                                     "--view",
+                                     (work / "s1.view").string(),
+                                     "--width",
+                                     "90",
+                                     "-o",
+                                     (work / "wall.png").string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("the picture 'photo of wall.jpg' is not there"));
+  EXPECT_TRUE(fs::exists(work / "wall.png"));
+}
+
 TEST(Convert, AModelSurvivesTheWayThroughObj) {
   const TemporaryFolder work;
   const std::string obj = (work / "a.obj").string();

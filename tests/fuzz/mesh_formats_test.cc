@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -26,8 +27,8 @@ void Append(T value, bool is_big_endian, std::string& bytes) {
   bytes.append(raw, sizeof(T));
 }
 
-const double kBox[8][3] = {{0, 0, 0}, {12, 0, 0}, {12, 8, 0}, {0, 8, 0},
-                           {0, 0, 6}, {12, 0, 6}, {12, 8, 6}, {0, 8, 6}};
+const double kBox[8][3] = {
+    {0, 0, 0}, {12, 0, 0}, {12, 8, 0}, {0, 8, 0}, {0, 0, 6}, {12, 0, 6}, {12, 8, 6}, {0, 8, 6}};
 const int kQuads[6][4] = {
     {0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
@@ -118,7 +119,7 @@ std::string Gltf() {
     "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 3}],
     "accessors": [
       {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "sparse": {"count": 1,
-        "indices": {"bufferView": 1, "componentType": 5121},
+        "indices": {"bufferView": 1, "byteOffset": 1, "componentType": 5121},
         "values": {"bufferView": 0, "byteOffset": 12}}},
       {"bufferView": 1, "componentType": 5121, "count": 3, "type": "SCALAR"}]})";
 }
@@ -133,8 +134,8 @@ class MeshFuzz : public testing::TestWithParam<Sample> {};
 
 TEST_P(MeshFuzz, DamagedFilesGiveAModelOrOneLine) {
   const Sample& sample = GetParam();
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) /
-                                     (std::string("groundglass_fuzz_") + sample.name);
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / (std::string("groundglass_fuzz_") + sample.name);
   const auto write = [&](const std::string& bytes) {
     std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
   };

@@ -182,8 +182,8 @@ TEST(MendFaces, WhatCoversItselfIsAFault) {
   // Around twice, a figure of eight, and an outline that is only a bridge.
   PolygonModel model;
   const std::vector<int> wall = AddRectangle(0, 0, 4, 3, model);
-  model.faces.push_back({{wall[0], wall[1], wall[2], wall[3], wall[0], wall[1], wall[2], wall[3]},
-                         ""});
+  model.faces.push_back(
+      {{wall[0], wall[1], wall[2], wall[3], wall[0], wall[1], wall[2], wall[3]}, ""});
   model.faces.push_back({{wall[0], wall[2], wall[1], wall[3]}, ""});
   model.faces.push_back({{wall[0], wall[1], wall[2], wall[1]}, ""});
   const MendedFaces mended = Mend(model);

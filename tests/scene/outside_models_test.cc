@@ -50,7 +50,7 @@ TEST(OutsideModels, RepeatedAndClosingCornersAreDroppedWithOneNote) {
   ASSERT_EQ(reading.warnings.size(), 1u);
   EXPECT_THAT(reading.warnings[0],
               AllOf(HasSubstr("28 faces repeat a corner or close their ring"),
-                    HasSubstr("the first: face 3, line ")));
+                    HasSubstr("the first: face 3 (hall north wall west), line 115")));
 }
 
 TEST(OutsideModels, ABridgeCutsAWindowOutOfItsWall) {
@@ -108,15 +108,16 @@ TEST(OutsideModels, LinesGoOnAfterABackslash) {
   EXPECT_THAT(reading.model.faces[4].points, ElementsAre(4, 5, 6, 7));
 }
 
-// The sum over all faces of the volume towards the origin: a closed box's, if all run the right way.
+// The sum over all faces of the volume towards the origin: a closed box's, if all run the right
+// way.
 double SignedVolume(const PolygonModel& model) {
   double volume = 0;
   for (const Face& face : model.faces) {
     for (size_t i = 1; i + 1 < face.points.size(); ++i) {
-      volume += model.points_in_world[face.points[0]].dot(
-                    model.points_in_world[face.points[i]].cross(
-                        model.points_in_world[face.points[i + 1]])) /
-                6;
+      volume +=
+          model.points_in_world[face.points[0]].dot(model.points_in_world[face.points[i]].cross(
+              model.points_in_world[face.points[i + 1]])) /
+          6;
     }
   }
   return volume;

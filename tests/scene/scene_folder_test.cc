@@ -184,7 +184,7 @@ TEST(CheckScene, FaultsOfTheFolderItself) {
     const SceneFolder folder;
     WriteLabels(folder / "faces/s10.png", Image16(30, 20, 1, 2));
     EXPECT_THAT(CheckScene(folder.path()).faults,
-                Contains(HasSubstr("faces/s10.png: face number 2, but the model has 1 faces")));
+                Contains(HasSubstr("faces/s10.png: names face 2, but the model has 1")));
   }
 }
 

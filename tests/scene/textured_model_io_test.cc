@@ -152,9 +152,9 @@ TEST(Glb, DamagedFilesAreErrorsAndNoCrash) {
 }
 
 TEST(ReadTexturedModel, PlainModelsHaveNoPages) {
-  const TexturedModel brick = ReadTexturedModel(std::string(GROUNDGLASS_SOURCE_DIR) +
-                                                "/datasets-synthetic/brick/model.osu")
-                                  .textured;
+  const TexturedModel brick =
+      ReadTexturedModel(std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick/model.osu")
+          .textured;
   EXPECT_EQ(brick.faces.size(), 70u);
   EXPECT_TRUE(brick.pages.empty());
   EXPECT_EQ(brick.faces[0].page, -1);
