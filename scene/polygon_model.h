@@ -14,7 +14,7 @@
 namespace groundglass {
 
 // One planar polygon: indices into PolygonModel::points_in_world, counterclockwise seen from its
-// front. May be concave.
+// front. May be concave, and have holes (scene/face_outline.h).
 struct Face {
   std::vector<int> points;
   std::string name;  // as commented in the file; may be empty

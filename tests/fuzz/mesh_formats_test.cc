@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -118,7 +119,7 @@ std::string Gltf() {
     "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 3}],
     "accessors": [
       {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "sparse": {"count": 1,
-        "indices": {"bufferView": 1, "componentType": 5121},
+        "indices": {"bufferView": 1, "byteOffset": 1, "componentType": 5121},
         "values": {"bufferView": 0, "byteOffset": 12}}},
       {"bufferView": 1, "componentType": 5121, "count": 3, "type": "SCALAR"}]})";
 }
