@@ -333,6 +333,10 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
     sighting.cam_from_board = shot.cam_from_board;
   }
   result.remarks = Remarks(shots, solution, result.lens, width_px, height_px);
+  if (result.rms_px > kGoodRmsPx) {
+    const std::string text = seen();
+    if (!text.empty()) result.remarks.push_back(text);
+  }
   return result;
 }
 
