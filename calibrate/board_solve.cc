@@ -3,6 +3,7 @@
 #include "calibrate/board_solve.h"
 
 #include "scene/error.h"
+#include "scene/symmetric_eigen.h"
 
 #include <ceres/ceres.h>
 
@@ -143,8 +144,7 @@ Eigen::Matrix3d EstimateHomography(const Board& board,
     }
   }
   // Eigenvalues come in increasing order: the first vector fits best.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
-  const Vector9 h = solver.eigenvectors().col(0);
+  const Vector9 h = DecomposeSymmetric(normal).vectors.col(0);
   Eigen::Matrix3d homography;
   homography << h.segment<3>(0).transpose(), h.segment<3>(3).transpose(),
       h.segment<3>(6).transpose();

@@ -5,6 +5,7 @@
 #include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/model_sigma.h"
+#include "scene/symmetric_eigen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -195,9 +196,9 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
   }
   const CameraCovariance correlation =
       inverse_sigmas.asDiagonal() * covariance * inverse_sigmas.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<CameraCovariance> eigen(correlation);
-  prior.root = prior.sigmas.asDiagonal() * eigen.eigenvectors() *
-               eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const SymmetricEigen eigen = DecomposeSymmetric(correlation);
+  prior.root =
+      prior.sigmas.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal();
   return prior;
 }
 

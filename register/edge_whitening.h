@@ -6,8 +6,8 @@
 
 #include <Eigen/Dense>
 
-#include <cmath>
 #include <span>
+#include <vector>
 
 namespace groundglass {
 
@@ -18,25 +18,13 @@ namespace groundglass {
 // (1 - 1 / sqrt(1 + l)) / l.
 class EdgeWhitening {
  public:
-  explicit EdgeWhitening(std::span<const AlignedSample> samples) : a_(samples.size(), 2) {
-    for (size_t i = 0; i < samples.size(); ++i) {
-      a_.row(static_cast<Eigen::Index>(i)) =
-          std::sqrt(samples[i].precision) * samples[i].bias_px.transpose();
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(a_.transpose() * a_);
-    Eigen::Vector2d shrink = Eigen::Vector2d::Zero();
-    for (int k = 0; k < 2; ++k) {
-      const double l = eigen.eigenvalues()[k];
-      if (l > 1e-12) shrink[k] = (1 - 1 / std::sqrt(1 + l)) / l;
-    }
-    g_ = eigen.eigenvectors() * shrink.asDiagonal() * eigen.eigenvectors().transpose();
-  }
+  explicit EdgeWhitening(std::span<const AlignedSample> samples);
 
-  // One row for each sample: residuals, or their derivatives.
+  // One row for each sample: residuals, or their derivatives; a matrix or a part of one.
   template <typename Derived>
   void Apply(Eigen::MatrixBase<Derived>&& rows) const {
-    const Eigen::Matrix<double, 2, Derived::ColsAtCompileTime> inner = g_ * (a_.transpose() * rows);
-    rows.derived().noalias() -= a_ * inner;
+    Derived& at = rows.derived();
+    ApplyTo({at.data(), at.rows(), at.cols(), at.rowStride(), at.colStride()});
   }
   template <typename Derived>
   void Apply(Eigen::MatrixBase<Derived>& rows) const {
@@ -44,7 +32,14 @@ class EdgeWhitening {
   }
 
  private:
-  Eigen::Matrix<double, Eigen::Dynamic, 2> a_;
+  struct StridedRows {
+    double* data;
+    Eigen::Index num_rows, num_columns, row_stride, column_stride;
+  };
+  // Not a template: Eigen's products of every width would be compiled in every user.
+  void ApplyTo(const StridedRows& rows) const;
+
+  std::vector<Eigen::Vector2d> a_;
   Eigen::Matrix2d g_;
 };
 

@@ -3,6 +3,7 @@
 #include "register/hypotheses.h"
 
 #include "scene/check_option.h"
+#include "scene/symmetric_eigen.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -114,9 +115,9 @@ LinearSamples Linearise(const std::vector<EdgeSample>& samples, const CameraPrio
   }
   const double count = std::max<double>(1, static_cast<double>(by_whitened.size()));
   linear.loose_px = std::sqrt(loose_sum / count);
-  const Eigen::SelfAdjointEigenSolver<CameraCovariance> eigen(information / count);
-  linear.directions = eigen.eigenvectors().rowwise().reverse();
-  linear.rms_px = eigen.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
+  const SymmetricEigen eigen = DecomposeSymmetric(information / count);
+  linear.directions = eigen.vectors.rowwise().reverse();
+  linear.rms_px = eigen.values.reverse().cwiseMax(0).cwiseSqrt();
   linear.moves.resize(2 * static_cast<Eigen::Index>(by_whitened.size()), kNumCameraParameters);
   for (size_t i = 0; i < by_whitened.size(); ++i) {
     linear.moves.middleRows<2>(2 * static_cast<Eigen::Index>(i)) =

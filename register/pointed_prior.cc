@@ -4,6 +4,7 @@
 
 #include "register/control_point_cost.h"
 #include "register/standard_normal_cost.h"
+#include "scene/symmetric_eigen.h"
 
 #include <ceres/ceres.h>
 
@@ -58,7 +59,9 @@ PointedPrior NarrowByPoints(const std::vector<ControlPoint>& points, const Camer
   const CameraCovariance information =
       CameraCovariance::Identity() + jacobian.transpose() * jacobian;
   pointed.offset = whitened;
-  pointed.map = Eigen::SelfAdjointEigenSolver<CameraCovariance>(information).operatorInverseSqrt();
+  const SymmetricEigen eigen = DecomposeSymmetric(information);
+  pointed.map = eigen.vectors * eigen.values.cwiseSqrt().cwiseInverse().asDiagonal() *
+                eigen.vectors.transpose();
   pointed.prior.mean = prior.ParametersAt(whitened);
   pointed.prior.root = prior.root * pointed.map;
   pointed.prior.sigmas = pointed.prior.root.rowwise().norm();
