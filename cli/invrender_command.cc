@@ -2,6 +2,9 @@
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
 #include "cli/commands.h"
+#include "cli/model_arguments.h"
+#include "cli/warnings_last.h"
+#include "scene/advice.h"
 #include "scene/model_io.h"
 #include "scene/output_folder.h"
 #include "scene/registration_io.h"
@@ -19,6 +22,7 @@ namespace {
 
 struct InvrenderArguments {
   CommonOptions common;
+  ModelArguments model_arguments;
   std::filesystem::path scene_folder;
   std::filesystem::path out_folder;
   std::optional<std::filesystem::path> views_folder;
@@ -121,11 +125,15 @@ int RunInvrender(const InvrenderArguments& arguments) {
   arguments.bake.options.Check();
   SceneOptions scene_options;
   scene_options.model_file = arguments.model_file;
-  scene_options.model.unit = arguments.common.unit;
-  const Scene scene = ReadScene(arguments.scene_folder, scene_options);
-  for (const std::string& warning : scene.warnings) {
-    std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
+  scene_options.model = arguments.model_arguments.Options();
+  Scene scene = ReadScene(arguments.scene_folder, scene_options);
+  // Cameras from elsewhere have no tags to be odd.
+  if (!arguments.views_folder) {
+    for (const Advice& advice : FindOddities(scene, scene_options.model)) {
+      scene.warnings.push_back(FormatAdvice(advice));
+    }
   }
+  const WarningsLast warnings(scene.warnings, arguments.common.quiet);
   const std::vector<BakePhotograph> photographs = Select(arguments, scene);
   if (arguments.common.dry_run) {
     std::printf("would texture %zu faces from %zu photographs into %s\n",
@@ -172,7 +180,9 @@ void AddInvrenderCommand(CLI::App& app, int& exit_status) {
   for (const char* tiles : {"--tiles", "--tile-record"}) {
     command->get_option("--as-photographed")->excludes(command->get_option(tiles));
   }
+  AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);
+  AddExample(command, "groundglass invrender hall --views hall-out/views -o hall-textured");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] { return RunInvrender(*arguments); });
   });

@@ -2,15 +2,20 @@
 // Part of Groundglass.
 #include "cli/register_arguments.h"
 
+#include "cli/warnings_last.h"
 #include "register/control_points.h"
 #include "register/registration_output.h"
 #include "register/select_photographs.h"
+#include "scene/advice.h"
 #include "scene/frames.h"
 #include "scene/image_io.h"
+#include "scene/registration_io.h"
 #include "viewer/overlay.h"
 
+#include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <mutex>
 #include <sstream>
@@ -107,15 +112,16 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
   command->add_option("--sigma-k1", prior.k1, "radial distortion")
       ->capture_default_str()
       ->group(group);
+  AddModelOptions(command, arguments.model_arguments);
 }
 
 Scene ReadSceneForCommand(const RegisterArguments& arguments, const CommonOptions& common) {
   SceneOptions options;
   options.model_file = arguments.model_file;
-  options.model.unit = common.unit;
+  options.model = arguments.model_arguments.Options();
   Scene scene = ReadScene(arguments.scene_folder, options);
-  for (const std::string& warning : scene.warnings) {
-    std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
+  for (const Advice& advice : FindOddities(scene, options.model)) {
+    scene.warnings.push_back(FormatAdvice(advice));
   }
   RequirePhotographs(scene, arguments.only, "option --only");
   RequirePhotographs(scene, arguments.options.overrule.accept, "option --accept");
@@ -254,6 +260,29 @@ void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit un
                 error.sigma,
                 error.num_photographs);
   }
+}
+
+void PrintVerdictCounts(const std::vector<Registration>& registrations, size_t num_warnings) {
+  const auto count = [&](Verdict verdict) {
+    return std::count_if(registrations.begin(), registrations.end(), [&](const auto& one) {
+      return one.verdict == verdict;
+    });
+  };
+  std::printf("\n%zu photographs: %td accepted, %td in review, %td rejected; %s\n",
+              registrations.size(),
+              count(Verdict::kAccepted),
+              count(Verdict::kReview),
+              count(Verdict::kRejected),
+              CountWarnings(num_warnings).c_str());
+}
+
+void PrintRegistrationsJson(const RegisteredScene& registered,
+                            const std::vector<std::string>& warnings) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(
+      FormatRegistrations(registered.registrations, registered.model_errors));
+  json["warnings"] = warnings;
+  std::printf("%s\n",
+              json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
 int ExitStatusOf(const std::vector<Registration>& registrations) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/commands.h"
+#include "cli/model_arguments.h"
 #include "register/register_scene.h"
 #include "scene/output_folder.h"
 #include "scene/scene_folder.h"
@@ -21,6 +22,7 @@ struct RegisterArguments {
   std::filesystem::path scene_folder;
   std::filesystem::path out_folder;
   std::optional<std::filesystem::path> model_file;
+  ModelArguments model_arguments;
   std::optional<std::filesystem::path> lens_file;
   std::optional<std::filesystem::path> points_file;
   std::vector<std::string> only;  // photographs by name; empty: all
@@ -28,7 +30,8 @@ struct RegisterArguments {
 };
 void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments);
 
-// Reads the scene, telling its warnings on stderr, and leaves the photographs that are asked for.
+// Reads the scene, what is odd about it among its warnings (they are told last: WarningsLast), and
+// leaves the photographs that are asked for.
 // Names that it does not have are an Error.
 Scene ReadSceneForCommand(const RegisterArguments& arguments, const CommonOptions& common);
 
@@ -45,6 +48,11 @@ RegisteredScene RegisterAndWrite(const Scene& scene,
 
 // The table that a person reads: verdict, how far the picture moved, score, reasons.
 void PrintRegistrations(const std::vector<Registration>& registrations);
+// How many have which verdict, and how many warnings there are.
+void PrintVerdictCounts(const std::vector<Registration>& registrations, size_t num_warnings);
+// registration.json as it is written, with the warnings.
+void PrintRegistrationsJson(const RegisteredScene& registered,
+                            const std::vector<std::string>& warnings);
 // The lines of the model that are off, if any, in `site`.
 void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit unit);
 

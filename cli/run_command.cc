@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
+#include "cli/check_report.h"
 #include "cli/commands.h"
 #include "cli/register_arguments.h"
+#include "cli/warnings_last.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
@@ -12,6 +14,7 @@
 #include "viewer/renderer.h"
 #include "viewer/report.h"
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -58,6 +61,23 @@ bool CanResume(const std::filesystem::path& out, const Manifest& manifest) {
   return HasManifest(out, manifest) && std::filesystem::exists(out / "registration.json");
 }
 
+// Where to look, for what there is to look at.
+void PrintWhatIsThere(const std::filesystem::path& out) {
+  constexpr std::array<std::array<const char*, 2>, 5> kPlaces = {{
+      {"corrected tags", "views"},
+      {"overlays", "overlays"},
+      {"textured model", "model.glb"},
+      {"new viewpoints", "renders"},
+      {"the whole story", "report.html"},
+  }};
+  for (const auto& [title, name] : kPlaces) {
+    const std::filesystem::path place = out / name;
+    std::error_code error;
+    if (!std::filesystem::exists(place, error) || std::filesystem::is_empty(place, error)) continue;
+    std::printf("%-16s %s\n", title, place.string().c_str());
+  }
+}
+
 int Run(const RunArguments& arguments) {
   const RegisterArguments& registering = arguments.registering;
   const CommonOptions& common = arguments.common;
@@ -65,6 +85,7 @@ int Run(const RunArguments& arguments) {
   registering.options.Check();
   arguments.baking.options.Check();
   const Scene scene = ReadSceneForCommand(registering, common);
+  const WarningsLast warnings(scene.warnings, common.quiet);
   Manifest manifest = DescribeInputs("run", scene, registering, common);
   DescribeBake(arguments.baking, manifest);
   if (common.dry_run) {
@@ -90,6 +111,7 @@ int Run(const RunArguments& arguments) {
     registered = RegisterAndWrite(scene, registering, common);
   }
   if (!common.json) {
+    std::fputs(FormatModelSummary(scene.model, registering.model_arguments).c_str(), stdout);
     PrintRegistrations(registrations);
     PrintModelErrors(registered.model_errors, scene.model.unit);
   }
@@ -118,16 +140,10 @@ int Run(const RunArguments& arguments) {
   WriteFileAtomically(out / "report.html", FormatReport(out, &scene));
 
   if (common.json) {
-    std::printf("%s", FormatRegistrations(registrations, registered.model_errors).c_str());
+    PrintRegistrationsJson(registered, scene.warnings);
   } else {
-    std::printf(
-        "\ncorrected tags   %s\noverlays         %s\ntextured model   %s\n"
-        "new viewpoints   %s\nthe whole story  %s\n",
-        (out / "views").string().c_str(),
-        (out / "overlays").string().c_str(),
-        (out / "model.glb").string().c_str(),
-        (out / "renders").string().c_str(),
-        (out / "report.html").string().c_str());
+    PrintVerdictCounts(registrations, scene.warnings.size());
+    PrintWhatIsThere(out);
   }
   return ExitStatusOf(registrations);
 }
@@ -144,6 +160,7 @@ void AddRunCommand(CLI::App& app, int& exit_status) {
       ->capture_default_str()
       ->check(CLI::Range(0, 100));
   AddCommonOptions(command, arguments->common);
+  AddExample(command, "groundglass run hall -o hall-out");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] { return Run(*arguments); });
   });

@@ -25,11 +25,20 @@ std::string Count(size_t number, const std::string& what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
+// The same lengths, counted in another unit.
+void ChangeUnit(LengthUnit unit, PolygonModel& model) {
+  const double scale = MetresPerUnit(model.unit) / MetresPerUnit(unit);
+  for (Eigen::Vector3d& point : model.points_in_world) point *= scale;
+  if (model.sigma) *model.sigma *= scale;
+  model.unit = unit;
+}
+
 }  // namespace
 
 ConvertResult ConvertModel(const fs::path& input,
                            const fs::path& output,
-                           const ModelOptions& options) {
+                           const ModelOptions& options,
+                           const std::optional<LengthUnit>& output_unit) {
   const std::string from = LowerCase(input.extension().string());
   const std::string to = LowerCase(output.extension().string());
   if (to != ".osu" && to != ".obj" && to != ".glb") {
@@ -43,10 +52,11 @@ ConvertResult ConvertModel(const fs::path& input,
   textured.faces.resize(textured.model.faces.size());
   if (to != ".osu" && (from == ".obj" || from == ".glb" || from == ".gltf")) {
     // The same faces in the same order, with their places on the pages.
-    TexturedModel with_pages = ReadTexturedModel(input);
+    TexturedModel with_pages = ReadTexturedModel(input, options);
     textured.faces = std::move(with_pages.faces);
     textured.pages = std::move(with_pages.pages);
   }
+  if (output_unit) ChangeUnit(*output_unit, textured.model);
   if (to == ".osu") {
     WriteFileAtomically(output, FormatOsu(textured.model));
   } else if (to == ".glb") {

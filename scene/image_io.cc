@@ -234,6 +234,10 @@ ImageSize ReadImageSize(const std::filesystem::path& file) {
   return swaps ? ImageSize{height, width} : ImageSize{width, height};
 }
 
+int ReadExifOrientation(const std::filesystem::path& file) {
+  return OpenImage(file).ExifOrientation();
+}
+
 ImageF ReadRadiance(const std::filesystem::path& file) {
   OpenImage image(file);
   CheckJpegIsWhole(file);

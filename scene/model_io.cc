@@ -8,30 +8,61 @@
 #include "scene/obj_io.h"
 #include "scene/text.h"
 
+#include <algorithm>
 #include <string>
 
 namespace groundglass {
 namespace {
 
-Eigen::Vector3d WorldFromMesh(const Eigen::Vector3d& point, MeshAxes axes) {
-  switch (axes) {
-    case MeshAxes::kWorld:
-      return point;
-    case MeshAxes::kSite:
-      return WorldFromSite(point);
-    case MeshAxes::kYUp:
-      return {point.x(), -point.z(), point.y()};
-  }
-  return point;
+// The axes that a format has by itself.
+MeshAxes FormatAxes(const std::string& extension) {
+  if (extension == ".osu") return MeshAxes::kSite;
+  return extension == ".glb" || extension == ".gltf" ? MeshAxes::kYUp : MeshAxes::kWorld;
+}
+
+void SetUnit(const ModelOptions& options, PolygonModel& model) {
+  if (!options.unit) return;
+  model.unit = *options.unit;
+  model.is_unit_assumed = false;
 }
 
 }  // namespace
+
+MeshAxes AxesOf(const std::filesystem::path& file, const ModelOptions& options) {
+  const MeshAxes own = FormatAxes(LowerCase(file.extension().string()));
+  if (!options.mesh_axes) return own;
+  if (*options.mesh_axes != MeshAxes::kZUp) return *options.mesh_axes;
+  return own == MeshAxes::kSite ? MeshAxes::kSite : MeshAxes::kWorld;
+}
+
+Eigen::Matrix3d WorldFromAxes(MeshAxes axes) {
+  Eigen::Matrix3d world_from_file = Eigen::Matrix3d::Identity();
+  if (axes == MeshAxes::kSite) world_from_file(1, 1) = -1;
+  if (axes == MeshAxes::kYUp) world_from_file << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  return world_from_file;
+}
+
+void ApplyModelOptions(const std::filesystem::path& file,
+                       const ModelOptions& options,
+                       PolygonModel& model) {
+  const MeshAxes own = FormatAxes(LowerCase(file.extension().string()));
+  const MeshAxes meant = AxesOf(file, options);
+  if (meant != own) {
+    const Eigen::Matrix3d meant_from_own = WorldFromAxes(meant) * WorldFromAxes(own).inverse();
+    for (Eigen::Vector3d& point : model.points_in_world) point = meant_from_own * point;
+  }
+  if (options.flip_faces) {
+    for (Face& face : model.faces) std::reverse(face.points.begin(), face.points.end());
+  }
+  if (options.sigma) model.sigma = options.sigma;
+}
 
 ModelReading ReadModel(const std::filesystem::path& file, const ModelOptions& options) {
   const std::string extension = LowerCase(file.extension().string());
   if (extension == ".osu") {
     ModelReading reading = ReadOsu(file);
-    if (options.unit) reading.model.unit = *options.unit;
+    SetUnit(options, reading.model);
+    ApplyModelOptions(file, options, reading.model);
     return reading;
   }
   ModelReading reading;
@@ -44,14 +75,13 @@ ModelReading ReadModel(const std::filesystem::path& file, const ModelOptions& op
       ObjReading obj = ReadObj(file);
       model = std::move(obj.model);
       if (obj.unit) model.unit = *obj.unit;
+      model.is_unit_assumed = !obj.unit;
       lines = std::move(obj.face_lines);
     } else {
       model = ReadPlainMesh(file);
+      model.is_unit_assumed = true;
     }
-    for (Eigen::Vector3d& point : model.points_in_world) {
-      point = WorldFromMesh(point, options.mesh_axes);
-    }
-    if (options.unit) model.unit = *options.unit;
+    SetUnit(options, model);
   } else {
     throw Error(file, "this kind of model is not read; expected .osu, .obj, .ply, .stl or .glb");
   }
@@ -61,6 +91,7 @@ ModelReading ReadModel(const std::filesystem::path& file, const ModelOptions& op
                                          : reading.warnings.back());
   }
   KeepFaces(model, usable);
+  ApplyModelOptions(file, options, model);
   return reading;
 }
 

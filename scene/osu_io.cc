@@ -43,6 +43,7 @@ std::vector<double> FieldNumbers(const std::filesystem::path& name,
 void ReadModelComments(const std::filesystem::path& name,
                        const std::vector<TextLine>& lines,
                        PolygonModel& model) {
+  model.is_unit_assumed = true;
   for (const TextLine& line : lines) {
     if (const auto words = CommentField(line, "unit:")) {
       const std::string unit = words->empty() ? "" : LowerCase(words->front().text);
@@ -53,6 +54,7 @@ void ReadModelComments(const std::filesystem::path& name,
                     "unit " + Quote(unit) + " is not known; expected " + UnitNames());
       }
       model.unit = *known;
+      model.is_unit_assumed = false;
     } else if (const auto origin = CommentField(line, "origin:")) {
       const std::vector<double> numbers =
           FieldNumbers(name, line.number, *origin, 3, "origin: LATITUDE LONGITUDE HEIGHT");

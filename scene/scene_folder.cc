@@ -26,6 +26,12 @@ constexpr std::array<std::string_view, 6> kImageExtensions = {
 constexpr const char* kModelNames = "model.osu, .obj, .ply, .stl or .glb";
 constexpr const char* kImageNames = ".jpg, .png, .tif or .exr";
 
+// Said where no photograph has a tag.
+constexpr const char* kHowToBegin =
+    "A tag says where the camera stood (x y z), the point that it looked at (i j k), the frame's "
+    "width / height (a) and its horizontal view angle in degrees (v): groundglass check SCENE "
+    "--template writes one for each photograph, to be filled in; docs/tutorial.md tells how";
+
 template <size_t N>
 bool HasExtension(const fs::path& file, const std::array<std::string_view, N>& extensions) {
   const std::string extension = LowerCase(file.extension().string());
@@ -184,7 +190,9 @@ class SceneReader {
         Fault(read_error);
       }
     } else {
-      Fault(Error(folder_, "no tags; expected a folder views/ with .view files, or tags.csv"));
+      Fault(Error(folder_,
+                  std::string("no tags; expected a folder views/ with .view files, or tags.csv. ") +
+                      kHowToBegin));
     }
   }
 
@@ -193,6 +201,7 @@ class SceneReader {
       if (known_names_.count(name) > 0) continue;
       const std::string expected =
           tags_place_.empty() ? "views/" + name + ".view" : tags_place_ + " for " + name;
+      result_.scene.untagged_images.push_back(file);
       Warn(file, "photograph without a tag; expected " + expected);
     }
     for (const auto& [name, file] : known_names_) {
@@ -215,35 +224,13 @@ class SceneReader {
         Fault(error);
         continue;
       }
-      LookForOddities(photograph);
       result_.scene.photographs.push_back(std::move(photograph));
     }
     if (result_.scene.photographs.empty() && result_.faults.empty()) {
-      Fault(Error(folder_, "no photograph has a tag; expected images/s5.jpg beside views/s5.view"));
-    }
-  }
-
-  void LookForOddities(const Photograph& photograph) {
-    const fs::path& place =
-        photograph.view_file.empty() ? folder_ / "tags.csv" : photograph.view_file;
-    const double image_aspect = static_cast<double>(photograph.size.width) / photograph.size.height;
-    const double ratio = photograph.tag.aspect / image_aspect;
-    // NTSC frames have pixels 1.1 from square; beyond 1.3 somebody has turned something.
-    if (ratio > 1.3 || ratio < 1 / 1.3) {
-      Warn(place,
-           "aspect " + FormatNumber(photograph.tag.aspect) + " does not suit " +
-               photograph.image_file.filename().string() + " of " +
-               std::to_string(photograph.size.width) + " x " +
-               std::to_string(photograph.size.height) + " pixels; is the picture turned?");
-    }
-    const Camera camera =
-        CameraFromTag(photograph.tag, photograph.size.width, photograph.size.height);
-    const std::vector<Eigen::Vector3d>& points = result_.scene.model.points_in_world;
-    const bool is_behind = std::all_of(points.begin(), points.end(), [&](const auto& point) {
-      return (camera.cam_from_world * point).z() <= 0;
-    });
-    if (!points.empty() && is_behind) {
-      Warn(place, "the whole model lies behind this camera; y runs south in view files");
+      Fault(Error(folder_,
+                  std::string("no photograph has a tag; expected images/s5.jpg beside "
+                              "views/s5.view. ") +
+                      kHowToBegin));
     }
   }
 

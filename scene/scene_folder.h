@@ -32,6 +32,7 @@ struct Scene {
   std::filesystem::path model_file;
   PolygonModel model;
   std::vector<Photograph> photographs;
+  std::vector<std::filesystem::path> untagged_images;  // photographs that no tag is there for
   std::vector<std::string> warnings;  // a photograph without a tag, a tag without a photograph, ...
 };
 

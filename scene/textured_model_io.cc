@@ -144,15 +144,16 @@ void WriteTexturedObj(const std::filesystem::path& file,
   WriteFileAtomically(file, text);
 }
 
-TexturedModel ReadTexturedModel(const std::filesystem::path& file) {
+TexturedModel ReadTexturedModel(const std::filesystem::path& file, const ModelOptions& options) {
   const std::string extension = LowerCase(file.extension().string());
   TexturedModel textured;
   if (extension == ".glb" || extension == ".gltf") {
-    textured = ReadGltf(file, std::nullopt, true);
+    textured = ReadGltf(file, options.unit, true);
   } else if (extension == ".obj") {
     textured = ReadTexturedObj(file);
+    if (options.unit) textured.model.unit = *options.unit;
   } else {
-    textured.model = ReadModel(file).model;
+    textured.model = ReadModel(file, options).model;
     textured.faces.resize(textured.model.faces.size());
     return textured;
   }
@@ -164,6 +165,12 @@ TexturedModel ReadTexturedModel(const std::filesystem::path& file) {
   for (const int face : usable)
     faces.push_back(std::move(textured.faces[static_cast<size_t>(face)]));
   textured.faces = std::move(faces);
+  ApplyModelOptions(file, options, textured.model);
+  if (options.flip_faces) {
+    for (FaceTexture& face : textured.faces) {
+      std::reverse(face.corners_texel.begin(), face.corners_texel.end());
+    }
+  }
   return textured;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/image_io.h"
+#include "scene/model_io.h"
 #include "scene/textured_model.h"
 
 #include <cstdint>
@@ -30,6 +31,7 @@ void WriteTexturedObj(const std::filesystem::path& file,
                       const JpegPages& pages = {});
 
 // Reads .glb, .gltf or .obj with its textures, or any plain model (no pages then).
-TexturedModel ReadTexturedModel(const std::filesystem::path& file);
+TexturedModel ReadTexturedModel(const std::filesystem::path& file,
+                                const ModelOptions& options = {});
 
 }  // namespace groundglass
