@@ -154,6 +154,10 @@ void AddBoardCommand(CLI::App* calibrate, int& exit_status) {
   command->add_flag("--k2", arguments->options.refine_k2, "free k2 as well: for wide lenses");
   command->add_option("--camera", arguments->camera, "the tags' camera name that it serves");
   AddCommonOptions(command, arguments->common);
+  AddExample(command,
+             "groundglass calibrate board --print board.png\n"
+             "  groundglass calibrate board board-1.jpg board-2.jpg board-3.jpg --tag-size 30 "
+             "--gap 9 -o my.lens");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] {
       return arguments->print_file.empty() ? CalibrateFromPhotographs(*arguments)
@@ -168,6 +172,7 @@ void AddCalibrateCommand(CLI::App& app, int& exit_status) {
   CLI::App* command =
       app.add_subcommand("calibrate", "What is true of all photographs of one camera");
   command->require_subcommand(1);
+  AddExample(command, "groundglass calibrate board board-1.jpg board-2.jpg board-3.jpg -o my.lens");
   AddBoardCommand(command, exit_status);
 }
 

@@ -1,28 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "cli/check_report.h"
 #include "cli/commands.h"
+#include "cli/model_arguments.h"
+#include "scene/advice.h"
+#include "scene/atomic_file.h"
+#include "scene/error.h"
 #include "scene/feature_edges.h"
 #include "scene/image_io.h"
 #include "scene/scene_folder.h"
+#include "scene/view_template.h"
 #include "scene/visibility.h"
 #include "viewer/overlay.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <memory>
+#include <optional>
 
 namespace groundglass {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct CheckArguments {
   CommonOptions common;
+  ModelArguments model_arguments;
   std::string scene;
   std::string model;
   std::string output;
+  bool with_templates = false;
+  std::optional<double> focal_length_mm;
 };
 
-// The measured tags' view of the model over each photograph that could be read.
-int DrawMeasuredTags(const Scene& scene, const CheckArguments& arguments) {
+// The measured tags' view of the model over each photograph that can be drawn; the others' faults
+// are told already. Returns the names of those that were.
+std::vector<std::string> DrawMeasuredTags(const Scene& scene, const CheckArguments& arguments) {
+  std::vector<std::string> drawn;
+  if (scene.model.faces.empty()) return drawn;
   const std::vector<ModelEdge> edges = FindModelEdges(scene.model);
   const Visibility visibility(scene.model);
   const Progress progress = MakeProgress(arguments.common, "overlay");
@@ -30,61 +46,79 @@ int DrawMeasuredTags(const Scene& scene, const CheckArguments& arguments) {
   for (const Photograph& photograph : scene.photographs) {
     const Camera measured =
         CameraFromTag(photograph.tag, photograph.size.width, photograph.size.height);
-    const Image8 overlay = DrawOverlay(
-        ReadSrgb8(photograph.image_file), scene.model, edges, visibility, measured, nullptr);
-    WriteSrgb8(std::filesystem::path(arguments.output) / (photograph.name + ".jpg"), overlay);
+    std::optional<Image8> picture;
+    try {
+      picture = ReadSrgb8(photograph.image_file);
+    } catch (const Error&) {
+      continue;
+    }
+    WriteSrgb8(fs::path(arguments.output) / (photograph.name + ".jpg"),
+               DrawOverlay(*picture, scene.model, edges, visibility, measured, nullptr));
+    drawn.push_back(photograph.name);
     ++done;
     if (progress) progress(done, static_cast<int>(scene.photographs.size()), photograph.name);
   }
-  return done;
+  return drawn;
 }
 
-void PrintForPeople(const SceneCheck& check) {
-  for (const std::string& fault : check.faults) std::printf("fault: %s\n", fault.c_str());
-  for (const std::string& warning : check.scene.warnings) {
-    std::printf("warning: %s\n", warning.c_str());
+// A template for each photograph that has no tag, beside the tags that are there.
+int WriteTemplates(const Scene& scene, const CheckArguments& arguments) {
+  if (fs::exists(scene.folder / "tags.csv")) {
+    throw Error(scene.folder / "tags.csv",
+                "this scene has its tags in a table; add a row there for each photograph without "
+                "one (image,x,y,z,i,j,k,a,v)");
   }
-  std::printf("%zu photographs with tags, %zu points, %zu faces; %zu faults, %zu warnings\n",
-              check.scene.photographs.size(),
-              check.scene.model.points_in_world.size(),
-              check.scene.model.faces.size(),
-              check.faults.size(),
-              check.scene.warnings.size());
-}
-
-void PrintJson(const SceneCheck& check) {
-  nlohmann::ordered_json json;
-  json["faults"] = check.faults;
-  json["warnings"] = check.scene.warnings;
-  json["points"] = check.scene.model.points_in_world.size();
-  json["faces"] = check.scene.model.faces.size();
-  json["photographs"] = nlohmann::ordered_json::array();
-  for (const Photograph& photograph : check.scene.photographs) {
-    json["photographs"].push_back({{"name", photograph.name},
-                                   {"image", photograph.image_file.string()},
-                                   {"width_px", photograph.size.width},
-                                   {"height_px", photograph.size.height}});
+  if (scene.untagged_images.empty()) {
+    throw Error(scene.folder / "images",
+                "no photograph here is without a tag, so there is no template to write");
   }
-  std::printf("%s\n",
-              json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  std::vector<std::string> written;
+  for (const fs::path& image : scene.untagged_images) {
+    const fs::path file = scene.folder / "views" / (image.stem().string() + ".view");
+    if (fs::exists(file)) continue;
+    const std::string text = FormatViewTemplate(image.filename().string(),
+                                                ReadImageSize(image),
+                                                scene.model.unit,
+                                                arguments.focal_length_mm);
+    if (!arguments.common.dry_run) WriteFileAtomically(file, text);
+    written.push_back(file.string());
+  }
+  if (arguments.common.json) {
+    const nlohmann::ordered_json json = {{"templates", written},
+                                         {"written", !arguments.common.dry_run}};
+    std::printf("%s\n",
+                json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+    return kExitDone;
+  }
+  for (const std::string& file : written) {
+    std::printf("%s%s\n", arguments.common.dry_run ? "would write " : "", file.c_str());
+  }
+  std::printf(
+      "Fill in each ? (docs/tutorial.md tells how), then: groundglass check %s -o overlays\n",
+      arguments.scene.c_str());
+  return kExitDone;
 }
 
 int RunCheck(const CheckArguments& arguments) {
   SceneOptions options;
   if (!arguments.model.empty()) options.model_file = arguments.model;
-  options.model.unit = arguments.common.unit;
-  const SceneCheck check = CheckScene(arguments.scene, options);
-  if (arguments.common.json) {
-    PrintJson(check);
-  } else {
-    PrintForPeople(check);
+  options.model = arguments.model_arguments.Options();
+  CheckReport report;
+  report.check = CheckScene(arguments.scene, options);
+  if (arguments.with_templates) return WriteTemplates(report.check.scene, arguments);
+  report.oddities = FindOddities(report.check.scene, options.model);
+  // Overlays show best where a tag is off, and what is at fault with the others.
+  if (!arguments.output.empty() && !arguments.common.dry_run) {
+    report.overlays = DrawMeasuredTags(report.check.scene, arguments);
   }
-  // Overlays show best where a tag is off, but only a sound scene can be drawn as a whole.
-  if (!arguments.output.empty() && !arguments.common.dry_run && check.faults.empty()) {
-    const int drawn = DrawMeasuredTags(check.scene, arguments);
-    std::fprintf(stderr, "%d overlays in %s\n", drawn, arguments.output.c_str());
+  std::fputs(arguments.common.json
+                 ? FormatCheckReportJson(report, arguments.model_arguments).c_str()
+                 : FormatCheckReport(report, arguments.model_arguments).c_str(),
+             stdout);
+  if (!report.overlays.empty() && !arguments.common.json) {
+    std::printf("%zu overlays in %s\n", report.overlays.size(), arguments.output.c_str());
   }
-  return check.faults.empty() ? kExitDone : kExitWrongInput;
+  return report.check.faults.empty() ? kExitDone : kExitWrongInput;
 }
 
 }  // namespace
@@ -97,7 +131,20 @@ void AddCheckCommand(CLI::App& app, int& exit_status) {
   command->add_option("--model", arguments->model, "this model in place of the folder's");
   command->add_option(
       "-o,--out", arguments->output, "draw the measured tags over the photographs into here");
+  CLI::Option* with_templates = command->add_flag(
+      "--template",
+      arguments->with_templates,
+      "write views/NAME.view, to be filled in, for each photograph without a tag");
+  command
+      ->add_option_function<double>(
+          "--focal-length",
+          [raw = arguments.get()](double millimetres) { raw->focal_length_mm = millimetres; },
+          "of the templates' lens, mm as for a 35 mm frame: fills in the view angle")
+      ->check(CLI::PositiveNumber)
+      ->needs(with_templates);
+  AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);
+  AddExample(command, "groundglass check hall -o hall-check");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [arguments] { return RunCheck(*arguments); });
   });

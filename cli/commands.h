@@ -2,15 +2,14 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/polygon_model.h"
 #include "scene/progress.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace groundglass {
 
@@ -27,11 +26,19 @@ struct CommonOptions {
   bool dry_run = false;  // say what would be done, write nothing
   int threads = 0;       // 0: every core
   uint64_t seed = 1988;
-  std::optional<LengthUnit> unit;
 };
 
 // Adds the common flags to a subcommand.
 void AddCommonOptions(CLI::App* command, CommonOptions& options);
+
+// Ends a subcommand's help with a command line to copy.
+void AddExample(CLI::App* command, const std::string& example);
+// An option that takes one of a few words, which its help lists.
+CLI::Option* AddChoice(CLI::App* command,
+                       const std::string& name,
+                       const std::vector<std::string>& words,
+                       const std::string& description,
+                       std::string& word);
 
 // Runs `work` with no more than options.threads threads.
 int RunWithThreads(const CommonOptions& options, const std::function<int()>& work);

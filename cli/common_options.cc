@@ -20,14 +20,22 @@ void AddCommonOptions(CLI::App* command, CommonOptions& options) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--seed", options.seed, "seed of everything that is drawn by chance")
       ->capture_default_str();
-  command
-      ->add_option_function<std::string>(
-          "--unit",
-          [&options](const std::string& unit) {
-            options.unit = FindUnit(unit);
-          },
-          "the model's unit, over what its file says")
-      ->check(CLI::IsMember({"ft", "m", "mm", "cm", "in", "us-ft"}));
+}
+
+void AddExample(CLI::App* command, const std::string& example) {
+  command->footer("\nExample:\n  " + example);
+}
+
+CLI::Option* AddChoice(CLI::App* command,
+                       const std::string& name,
+                       const std::vector<std::string>& words,
+                       const std::string& description,
+                       std::string& word) {
+  std::string list;
+  for (const std::string& known : words) list += (list.empty() ? "" : "|") + known;
+  return command->add_option(name, word, description)
+      ->check(CLI::IsMember(words).description(""))
+      ->option_text(list);
 }
 
 int RunWithThreads(const CommonOptions& options, const std::function<int()>& work) {

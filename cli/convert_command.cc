@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/model_arguments.h"
 #include "scene/colmap_io.h"
 #include "scene/convert.h"
-#include "scene/error.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,8 +17,8 @@ struct ConvertArguments {
   CommonOptions common;
   std::string input;
   std::string output;
-  std::string frame = "world";
-  std::string up = "z";
+  ModelArguments model_arguments;
+  std::optional<LengthUnit> output_unit;
   std::string images;
   double lookat_distance = 100;
 };
@@ -33,17 +33,11 @@ ConvertResult Convert(const ConvertArguments& arguments) {
         arguments.images.empty() ? input / "../images" : std::filesystem::path(arguments.images);
     return ConvertViewsToColmap(input, arguments.output, images);
   }
-  ModelOptions options;
-  options.unit = arguments.common.unit;
-  if (arguments.frame == "site") options.mesh_axes = MeshAxes::kSite;
-  if (arguments.up == "y") options.mesh_axes = MeshAxes::kYUp;
-  return ConvertModel(input, arguments.output, options);
+  return ConvertModel(
+      input, arguments.output, arguments.model_arguments.Options(), arguments.output_unit);
 }
 
 int RunConvert(const ConvertArguments& arguments) {
-  if (arguments.frame == "site" && arguments.up == "y") {
-    throw Error("--frame site has z up; it cannot go with --up y");
-  }
   if (arguments.common.dry_run) {
     std::printf("would convert %s to %s\n", arguments.input.c_str(), arguments.output.c_str());
     return kExitDone;
@@ -73,12 +67,15 @@ void AddConvertCommand(CLI::App& app, int& exit_status) {
       "cameras (a COLMAP model, text or binary, to a folder of .view files, and back)");
   command->add_option("input", arguments->input, "a model, or a folder of cameras")->required();
   command->add_option("output", arguments->output, "a model, or a folder for cameras")->required();
-  command->add_option("--frame", arguments->frame, "axes of an OBJ, PLY or STL file")
-      ->check(CLI::IsMember({"world", "site"}))
-      ->capture_default_str();
-  command->add_option("--up", arguments->up, "the axis that is up in an OBJ, PLY or STL file")
-      ->check(CLI::IsMember({"y", "z"}))
-      ->capture_default_str();
+  command->add_option_function<std::string>(
+      "--to-unit",
+      [raw = arguments.get()](const std::string& unit) {
+        raw->output_unit = FindUnit(unit);
+        if (!raw->output_unit) {
+          throw CLI::ValidationError("--to-unit", unit + " is not one of " + UnitNames());
+        }
+      },
+      "write the model's lengths in this unit: " + UnitNames());
   command->add_option(
       "--images", arguments->images, "the photographs of the view files (default: ../images)");
   command
@@ -87,7 +84,9 @@ void AddConvertCommand(CLI::App& app, int& exit_status) {
                    "how far ahead of a COLMAP camera its look-at point is put, model's unit")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);
+  AddExample(command, "groundglass convert hall.obj hall/model.osu --up y --unit m");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [arguments] { return RunConvert(*arguments); });
   });

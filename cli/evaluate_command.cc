@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/model_arguments.h"
 #include "datasets-synthetic/calibration_plot.h"
 #include "datasets-synthetic/error_plot.h"
 #include "datasets-synthetic/evaluate.h"
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 
 struct EvaluateArguments {
   CommonOptions common;
+  ModelArguments model_arguments;
   std::string found;
   std::string truth;
   std::string model;
@@ -51,11 +53,9 @@ std::string SceneName(const fs::path& folder) {
 
 int EvaluateFound(const EvaluateArguments& arguments) {
   const Truth truth = ReadTruth(arguments.truth);
-  ModelOptions model_options;
-  model_options.unit = arguments.common.unit;
   const fs::path model_file =
       arguments.model.empty() ? FindModel(arguments.truth) : fs::path(arguments.model);
-  const ModelReading reading = ReadModel(model_file, model_options);
+  const ModelReading reading = ReadModel(model_file, arguments.model_arguments.Options());
   for (const std::string& warning : reading.warnings) {
     std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
   }
@@ -84,7 +84,7 @@ int EvaluateFound(const EvaluateArguments& arguments) {
 int RunTrialsOfScene(const EvaluateArguments& arguments) {
   SceneOptions scene_options;
   if (!arguments.model.empty()) scene_options.model_file = arguments.model;
-  scene_options.model.unit = arguments.common.unit;
+  scene_options.model = arguments.model_arguments.Options();
   const Scene scene = ReadScene(arguments.found, scene_options);
   TrialOptions options = arguments.trials;
   options.num_trials = arguments.num_trials;
@@ -123,7 +123,9 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
   command->add_option("--truth", arguments->truth, "the scene's truth folder")->required();
   command->add_option("--model", arguments->model, "the polygon model, if not beside the truth");
   command->add_option("--plot", arguments->plot_file, "SVG of errors against start and claims");
+  AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);
+  AddExample(command, "groundglass evaluate hall-out --truth hall/truth");
   CLI::Option* trials = command->add_option(
       "--trials",
       arguments->num_trials,

@@ -2,10 +2,13 @@
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
 #include "cli/commands.h"
+#include "cli/model_arguments.h"
 #include "cli/option_values.h"
 #include "cli/register_arguments.h"
 #include "cli/stage_keys.h"
 #include "cli/texture_stages.h"
+#include "cli/warnings_last.h"
+#include "scene/advice.h"
 #include "scene/error.h"
 #include "scene/model_io.h"
 #include "scene/output_folder.h"
@@ -28,6 +31,7 @@ namespace fs = std::filesystem;
 
 struct InvrenderArguments {
   CommonOptions common;
+  ModelArguments model_arguments;
   std::filesystem::path scene_folder;
   std::filesystem::path out_folder;
   std::optional<std::filesystem::path> views_folder;
@@ -152,11 +156,17 @@ int RunInvrender(const InvrenderArguments& arguments) {
   BakeOptions options = arguments.bake.Options();
   SceneOptions scene_options;
   scene_options.model_file = arguments.model_file;
-  scene_options.model.unit = arguments.common.unit;
+  scene_options.model = arguments.model_arguments.Options();
   scene_options.views = arguments.views_folder;
   scene_options.exclude = arguments.bake.exclude;
-  const Scene scene = ReadScene(arguments.scene_folder, scene_options);
-  PrintWarnings(scene.warnings);
+  Scene scene = ReadScene(arguments.scene_folder, scene_options);
+  // Cameras from elsewhere have no tags to be odd.
+  if (!arguments.views_folder) {
+    for (const Advice& advice : FindOddities(scene, scene_options.model)) {
+      scene.warnings.push_back(FormatAdvice(advice));
+    }
+  }
+  const WarningsLast warnings(scene.warnings, arguments.common.quiet);
   RequireSoundPoses(scene);
   std::vector<std::string> unreadable = DescribeUnreadable(scene);
   std::vector<BakePhotograph> photographs = Select(arguments, scene);
@@ -233,9 +243,12 @@ void AddInvrenderCommand(CLI::App& app, int& exit_status) {
   for (const char* tiles : {"--tiles", "--tile-record"}) {
     command->get_option("--as-photographed")->excludes(command->get_option(tiles));
   }
-  const std::vector<const CLI::Option*> common =
-      OptionsAddedBy(command, [&] { AddCommonOptions(command, arguments->common); });
+  const std::vector<const CLI::Option*> common = OptionsAddedBy(command, [&] {
+    AddModelOptions(command, arguments->model_arguments);
+    AddCommonOptions(command, arguments->common);
+  });
   arguments->texture_options.insert(arguments->texture_options.end(), common.begin(), common.end());
+  AddExample(command, "groundglass invrender hall --views hall-out/views -o hall-textured");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] { return RunInvrender(*arguments); });
   });

@@ -1,11 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/suggestion.h"
 #include "scene/error.h"
 
 #include <csignal>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+
+namespace groundglass {
+namespace {
+
+// One line for the person at the keyboard; an object for a program that asked for one.
+int Fail(int exit_status, const std::string& message, bool as_json) {
+  std::fprintf(stderr, "groundglass: %s\n", message.c_str());
+  if (as_json) {
+    const nlohmann::ordered_json json = {{"error", message}, {"exit", exit_status}};
+    std::printf("%s\n",
+                json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  }
+  return exit_status;
+}
+
+// Without the program's own name, which every line of ours begins with.
+std::string WithoutProgramName(const std::string& message) {
+  constexpr std::string_view kName = "groundglass";
+  if (message.rfind(kName, 0) != 0) return message;
+  const size_t rest = message.find_first_not_of(" :", kName.size());
+  return rest == std::string::npos ? message : message.substr(rest);
+}
+
+}  // namespace
+}  // namespace groundglass
 
 int main(int argc, char** argv) {
   using namespace groundglass;
@@ -17,6 +46,10 @@ int main(int argc, char** argv) {
       "groundglass"};
   app.set_version_flag("--version", "groundglass " GROUNDGLASS_VERSION);
   app.require_subcommand(1);
+  AddExample(&app,
+             "groundglass check hall -o hall-check    what is wrong, and what to do\n"
+             "  groundglass run hall -o hall-out        the whole job\n"
+             "  groundglass run --help                  each command has its own help");
   int exit_status = kExitDone;
   AddRunCommand(app, exit_status);
   AddCheckCommand(app, exit_status);
@@ -27,16 +60,23 @@ int main(int argc, char** argv) {
   AddSynthCommand(app, exit_status);
   AddEvaluateCommand(app, exit_status);
   AddConvertCommand(app, exit_status);
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty()) {
+    std::fputs(app.help().c_str(), stdout);
+    return kExitWrongUsage;
+  }
+  const bool as_json = std::find(words.begin(), words.end(), "--json") != words.end();
+  if (const auto unknown = FindUnknownCommand(app, words)) {
+    return Fail(kExitWrongUsage, WithoutProgramName(*unknown), as_json);
+  }
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success) == 0 ? kExitDone : kExitWrongUsage;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitDone : kExitWrongUsage;
-  } catch (const Error& error) {
-    std::fprintf(stderr, "groundglass: %s\n", error.what());
-    return kExitWrongInput;
+    return Fail(kExitWrongUsage, WithoutProgramName(DescribeUsageError(app, error)), as_json);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "groundglass: %s\n", error.what());
-    return kExitWrongInput;
+    return Fail(kExitWrongInput, error.what(), as_json);
   }
   return exit_status;
 }

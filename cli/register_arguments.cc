@@ -2,12 +2,18 @@
 // Part of Groundglass.
 #include "cli/register_arguments.h"
 
+#include "cli/warnings_last.h"
 #include "register/control_points.h"
+#include "scene/advice.h"
 #include "scene/frames.h"
-#include "scene/model_sigma.h"
 #include "scene/pose_check.h"
+#include "scene/registration_io.h"
 #include "scene/select_photographs.h"
 
+#include <nlohmann/json.hpp>
+
+
+#include <algorithm>
 #include <cstdio>
 
 namespace groundglass {
@@ -92,19 +98,23 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
   command->add_option("--sigma-k1", prior.k1, "radial distortion")
       ->capture_default_str()
       ->group(group);
+  AddModelOptions(command, arguments.model_arguments);
 }
 
 Scene ReadSceneForCommand(const RegisterArguments& arguments,
-                          const CommonOptions& common,
                           const std::vector<std::string>& not_needed) {
   SceneOptions options;
   options.model_file = arguments.model_file;
-  options.model.unit = common.unit;
+  options.model = arguments.model_arguments.Options();
   options.views = arguments.views_folder;
   options.only = arguments.only;
   options.exclude = not_needed;
   Scene scene = ReadScene(arguments.scene_folder, options);
-  PrintWarnings(scene.warnings);
+  if (!arguments.views_folder) {
+    for (const Advice& advice : FindOddities(scene, options.model)) {
+      scene.warnings.push_back(FormatAdvice(advice));
+    }
+  }
   RequireSoundPoses(scene);
   RequirePhotographs(scene, arguments.options.overrule.accept, "option --accept");
   RequirePhotographs(scene, arguments.options.overrule.reject, "option --reject");
@@ -118,10 +128,6 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
     RequirePhotographs(scene, names, arguments.points_file->string());
   }
   return scene;
-}
-
-void PrintModelSigma(const PolygonModel& model) {
-  std::printf("the model's edges may lie off by %s\n", DescribeModelSigma(model).c_str());
 }
 
 void PrintRegistrations(const std::vector<Registration>& registrations) {
@@ -183,6 +189,32 @@ void PrintWarnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
     std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
+void PrintVerdictCounts(const std::vector<Registration>& registrations, size_t num_warnings) {
+  const auto count = [&](Verdict verdict) {
+    return std::count_if(registrations.begin(), registrations.end(), [&](const auto& one) {
+      return one.verdict == verdict;
+    });
+  };
+  const auto num_unreadable = count(Verdict::kUnreadable);
+  const std::string unreadable =
+      num_unreadable > 0 ? ", " + std::to_string(num_unreadable) + " unreadable" : "";
+  std::printf("\n%zu photographs: %td accepted, %td in review, %td rejected%s; %s\n",
+              registrations.size(),
+              count(Verdict::kAccepted),
+              count(Verdict::kReview),
+              count(Verdict::kRejected),
+              unreadable.c_str(),
+              CountWarnings(num_warnings).c_str());
+}
+
+void PrintRegistrationsJson(const RegisteredScene& registered,
+                            const std::vector<std::string>& warnings) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(
+      FormatRegistrations(
+          registered.registrations, registered.model_errors, registered.warnings));
+  json["warnings"] = warnings;
+  std::printf("%s\n",
+              json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
 int ExitStatusOf(const std::vector<Registration>& registrations) {

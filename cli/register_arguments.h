@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/commands.h"
+#include "cli/model_arguments.h"
 #include "register/register_scene.h"
 #include "scene/scene_folder.h"
 
@@ -21,6 +22,7 @@ struct RegisterArguments {
   std::filesystem::path out_folder;
   std::optional<std::filesystem::path> views_folder;  // cameras in place of the scene's tags
   std::optional<std::filesystem::path> model_file;
+  ModelArguments model_arguments;
   std::optional<std::filesystem::path> lens_file;
   std::optional<std::filesystem::path> points_file;
   std::vector<std::string> only;  // photographs by name; empty: all
@@ -28,17 +30,20 @@ struct RegisterArguments {
 };
 void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments);
 
-// Reads the scene, telling its warnings on stderr, and leaves the photographs that are asked for.
-// Names that it does not have are an Error. not_needed: photographs whose faults do not matter.
+// Reads the scene, what is odd about it among its warnings (they are told last: WarningsLast), and
+// leaves the photographs that are asked for. Names that it does not have are an Error. not_needed:
+// photographs whose faults do not matter.
 Scene ReadSceneForCommand(const RegisterArguments& arguments,
-                          const CommonOptions& common,
                           const std::vector<std::string>& not_needed = {});
 
-// How far the model's edges may lie off, and whether that is a default.
-void PrintModelSigma(const PolygonModel& model);
 // The table that a person reads: verdict, how far the picture moved, how its edges scatter about
 // the model's (root mean square, and robustly), score, margin over the best rival, reasons.
 void PrintRegistrations(const std::vector<Registration>& registrations);
+// How many have which verdict, and how many warnings there are.
+void PrintVerdictCounts(const std::vector<Registration>& registrations, size_t num_warnings);
+// registration.json as it is written, with the warnings.
+void PrintRegistrationsJson(const RegisteredScene& registered,
+                            const std::vector<std::string>& warnings);
 // The lines of the model that are off, if any, in `site`.
 void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit unit);
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "cli/check_report.h"
 #include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/register_arguments.h"
 #include "cli/register_stages.h"
 #include "cli/stage_keys.h"
 #include "cli/texture_stages.h"
+#include "cli/warnings_last.h"
 #include "scene/registration_io.h"
 
 #include <cstdio>
@@ -26,11 +28,13 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
     AddRegisterArguments(command, arguments->registering);
     AddCommonOptions(command, arguments->common);
   });
+  AddExample(command, "groundglass register hall -o hall-out --sigma-lookat 0.5");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] {
       const RegisterArguments& registering = arguments->registering;
       registering.options.Check();
-      const Scene scene = ReadSceneForCommand(registering, arguments->common);
+      const Scene scene = ReadSceneForCommand(registering);
+      const WarningsLast warnings(scene.warnings, arguments->common.quiet);
       if (arguments->common.dry_run) {
         std::printf("would register %zu photographs into %s\n",
                     scene.photographs.size(),
@@ -52,14 +56,12 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
           EnsureRegistered(scene, registering, arguments->common, key, stages);
       EnsureOverlays(scene, registered, registering, arguments->common, key, stages);
       if (arguments->common.json) {
-        std::printf("%s",
-                    FormatRegistrations(
-                        registered.registrations, registered.model_errors, registered.warnings)
-                        .c_str());
+        PrintRegistrationsJson(registered, scene.warnings);
       } else {
-        PrintModelSigma(scene.model);
+        std::fputs(FormatModelSummary(scene.model, registering.model_arguments).c_str(), stdout);
         PrintRegistrations(registered.registrations);
         PrintModelErrors(registered.model_errors, scene.model.unit);
+        PrintVerdictCounts(registered.registrations, scene.warnings.size());
       }
       PrintWarnings(registered.warnings);
       return ExitStatusOf(registered.registrations);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/model_arguments.h"
 #include "invrender/tiles.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
@@ -37,13 +38,23 @@ const std::map<std::string, Background> kBackgrounds = {{"white", Background::kW
                                                         {"sky", Background::kSky},
                                                         {"transparent", Background::kTransparent}};
 
+template <typename T>
+std::vector<std::string> Names(const std::map<std::string, T>& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return names;
+}
+
 struct RenderArguments {
   CommonOptions common;
+  ModelArguments model_arguments;
   fs::path model;
   fs::path view_file;
   std::string path;  // "orbit", or a folder of .view files
   fs::path photograph;
   fs::path out;
+  std::string mode = "textured";
+  std::string background = "white";
   int width_px = 0;
   int height_px = 0;
   double seconds = 10;
@@ -60,9 +71,7 @@ TexturedModelReading ReadModelToRender(const RenderArguments& arguments) {
     }
     file /= "model.glb";
   }
-  ModelOptions options;
-  options.unit = arguments.common.unit;
-  return ReadTexturedModel(file, options);
+  return ReadTexturedModel(file, arguments.model_arguments.Options());
 }
 
 std::vector<std::string> Together(std::vector<std::string> warnings,
@@ -257,10 +266,9 @@ void AddRenderCommand(CLI::App& app, int& exit_status) {
   command->add_option("--photo", arguments->photograph, "draw the model's edges over this one")
       ->needs(view);
   view->excludes(path);
-  command->add_option("--mode", arguments->render.mode, "textured, shaded, wire or labels")
-      ->transform(CLI::CheckedTransformer(kModes));
-  command->add_option("--background", arguments->render.background, "white, sky or transparent")
-      ->transform(CLI::CheckedTransformer(kBackgrounds));
+  AddChoice(command, "--mode", Names(kModes), "how faces are drawn", arguments->mode);
+  AddChoice(
+      command, "--background", Names(kBackgrounds), "behind the model", arguments->background);
   command->add_flag("--edges", arguments->render.edges, "the model's edges over the picture");
   command
       ->add_option("--width", arguments->width_px, "px; 1500 if neither width nor height is given")
@@ -279,9 +287,15 @@ void AddRenderCommand(CLI::App& app, int& exit_status) {
       ->capture_default_str();
   command->add_option("--orbit-height", arguments->orbit.height_deg, "degrees above the model")
       ->capture_default_str();
+  AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);
+  AddExample(command,
+             "groundglass render hall-out --view from-the-roof.view -o roof.png\n"
+             "  groundglass render hall-out --path orbit -o around.mp4");
   command->callback([arguments, view, path, &exit_status] {
     if (view->count() + path->count() == 0) throw CLI::RequiredError("--view or --path");
+    arguments->render.mode = kModes.at(arguments->mode);
+    arguments->render.background = kBackgrounds.at(arguments->background);
     exit_status = RunWithThreads(arguments->common, [&] { return RunRender(*arguments); });
   });
 }

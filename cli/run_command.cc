@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
+#include "cli/check_report.h"
 #include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/register_arguments.h"
 #include "cli/register_stages.h"
 #include "cli/stage_keys.h"
 #include "cli/texture_stages.h"
+#include "cli/warnings_last.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/registration_io.h"
 #include "viewer/report.h"
 
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -92,7 +95,8 @@ void PrintPlaces(const fs::path& out, const ImageSize& stills) {
                                                         {"the whole story", "report.html"}};
   std::printf("\n");
   for (const auto& [what, name] : places) {
-    if (!fs::exists(out / name)) continue;
+    std::error_code error;
+    if (!fs::exists(out / name, error) || fs::is_empty(out / name, error)) continue;
     const bool is_stills = std::string_view(name) == "renders" && stills.width > 0;
     const std::string size =
         " (" + std::to_string(stills.width) + " x " + std::to_string(stills.height) + " pixels)";
@@ -108,7 +112,8 @@ int Run(const RunArguments& arguments) {
   registering.options.Check();
   baking.options.Check();
   const BakeOptions bake_options = baking.Options();
-  const Scene scene = ReadSceneForCommand(registering, common, baking.exclude);
+  const Scene scene = ReadSceneForCommand(registering, baking.exclude);
+  const WarningsLast warnings(scene.warnings, common.quiet);
   CheckNarrowing(arguments, scene);
   if (common.dry_run) {
     std::printf("would register %zu photographs, bake %zu faces and write %s\n",
@@ -136,7 +141,7 @@ int Run(const RunArguments& arguments) {
       EnsureRegistered(scene, registering, common, keys.registration, stages);
   const std::vector<Registration>& registrations = registered.registrations;
   if (!common.json) {
-    PrintModelSigma(scene.model);
+    std::fputs(FormatModelSummary(scene.model, registering.model_arguments).c_str(), stdout);
     PrintRegistrations(registrations);
     PrintModelErrors(registered.model_errors, scene.model.unit);
   }
@@ -181,10 +186,9 @@ int Run(const RunArguments& arguments) {
   });
 
   if (common.json) {
-    std::printf(
-        "%s",
-        FormatRegistrations(registrations, registered.model_errors, registered.warnings).c_str());
+    PrintRegistrationsJson(registered, scene.warnings);
   } else {
+    PrintVerdictCounts(registrations, scene.warnings.size());
     PrintPlaces(out, stills_size);
   }
   PrintWarnings(registered.warnings);
@@ -212,6 +216,7 @@ void AddRunCommand(CLI::App& app, int& exit_status) {
   const std::vector<const CLI::Option*> common =
       OptionsAddedBy(command, [&] { AddCommonOptions(command, arguments->common); });
   options.registering.insert(options.registering.end(), common.begin(), common.end());
+  AddExample(command, "groundglass run hall -o hall-out");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] { return Run(*arguments); });
   });

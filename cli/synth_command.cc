@@ -102,6 +102,7 @@ void AddSynthCommand(CLI::App& app, int& exit_status) {
   command->add_option(
       "--pictures", arguments->pictures, "with --list: a picture of each preset into this folder");
   AddCommonOptions(command, arguments->common);
+  AddExample(command, "groundglass synth wiesner -o wiesner");
   command->callback([command, arguments, &exit_status] {
     if (arguments->list) {
       exit_status = RunWithThreads(arguments->common, [&] {

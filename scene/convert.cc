@@ -26,11 +26,20 @@ std::string Count(size_t number, const std::string& what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
+// The same lengths, counted in another unit.
+void ChangeUnit(LengthUnit unit, PolygonModel& model) {
+  const double scale = MetresPerUnit(model.unit) / MetresPerUnit(unit);
+  for (Eigen::Vector3d& point : model.points_in_world) point *= scale;
+  if (model.sigma) *model.sigma *= scale;
+  model.unit = unit;
+}
+
 }  // namespace
 
 ConvertResult ConvertModel(const fs::path& input,
                            const fs::path& output,
-                           const ModelOptions& options) {
+                           const ModelOptions& options,
+                           const std::optional<LengthUnit>& output_unit) {
   const std::string to = LowerCase(output.extension().string());
   if (to != ".osu" && to != ".obj" && to != ".glb") {
     throw Error(output, "a model is written as .osu, .obj or .glb");
@@ -38,7 +47,8 @@ ConvertResult ConvertModel(const fs::path& input,
   ConvertResult result;
   TexturedModelReading reading = ReadTexturedModel(input, options, to != ".osu");
   result.warnings = std::move(reading.warnings);
-  const TexturedModel& textured = reading.textured;
+  TexturedModel& textured = reading.textured;
+  if (output_unit) ChangeUnit(*output_unit, textured.model);
   if (to == ".osu") {
     WriteFileAtomically(output, FormatOsu(textured.model));
   } else if (to == ".glb") {

@@ -18,10 +18,12 @@ struct ConvertResult {
 };
 
 // A model from any format that is read to .osu, .obj or .glb, by the output's extension. Textures
-// go along from .glb and textured .obj to either. Throws Error.
+// go along from .glb and textured .obj to either. output_unit: what the lengths are written in;
+// none: the model's own. Throws Error.
 ConvertResult ConvertModel(const std::filesystem::path& input,
                            const std::filesystem::path& output,
-                           const ModelOptions& options);
+                           const ModelOptions& options,
+                           const std::optional<LengthUnit>& output_unit = std::nullopt);
 
 // A COLMAP model (text or binary) in `world` to a folder of view files, each named after its image
 // (image_paths.h); nothing is written unless all can be.

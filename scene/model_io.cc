@@ -10,21 +10,22 @@
 #include "scene/text.h"
 #include "scene/textured_model_io.h"
 
+#include <algorithm>
 #include <string>
 
 namespace groundglass {
 namespace {
 
-Eigen::Vector3d WorldFromMesh(const Eigen::Vector3d& point, MeshAxes axes) {
-  switch (axes) {
-    case MeshAxes::kWorld:
-      return point;
-    case MeshAxes::kSite:
-      return WorldFromSite(point);
-    case MeshAxes::kYUp:
-      return {point.x(), -point.z(), point.y()};
-  }
-  return point;
+// The axes that a format has by itself.
+MeshAxes FormatAxes(const std::string& extension) {
+  if (extension == ".osu") return MeshAxes::kSite;
+  return extension == ".glb" || extension == ".gltf" ? MeshAxes::kYUp : MeshAxes::kWorld;
+}
+
+void SetUnit(const ModelOptions& options, PolygonModel& model) {
+  if (!options.unit) return;
+  model.unit = *options.unit;
+  model.is_unit_assumed = false;
 }
 
 MeshReading ReadMesh(const std::filesystem::path& file,
@@ -38,16 +39,40 @@ MeshReading ReadMesh(const std::filesystem::path& file,
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) throw Error(file, "no such model file");
   if (is_gltf) return ReadGltf(file, options.unit, with_pages);
-  MeshReading mesh = extension == ".obj"   ? ReadTexturedObj(file, with_pages)
-                     : extension == ".ply" ? ReadPly(file)
-                                           : ReadStl(file);
-  for (Eigen::Vector3d& point : mesh.textured.model.points_in_world) {
-    point = WorldFromMesh(point, options.mesh_axes);
-  }
-  return mesh;
+  if (extension == ".obj") return ReadTexturedObj(file, with_pages);
+  return extension == ".ply" ? ReadPly(file) : ReadStl(file);
 }
 
 }  // namespace
+
+MeshAxes AxesOf(const std::filesystem::path& file, const ModelOptions& options) {
+  const MeshAxes own = FormatAxes(LowerCase(file.extension().string()));
+  if (!options.mesh_axes) return own;
+  if (*options.mesh_axes != MeshAxes::kZUp) return *options.mesh_axes;
+  return own == MeshAxes::kSite ? MeshAxes::kSite : MeshAxes::kWorld;
+}
+
+Eigen::Matrix3d WorldFromAxes(MeshAxes axes) {
+  Eigen::Matrix3d world_from_file = Eigen::Matrix3d::Identity();
+  if (axes == MeshAxes::kSite) world_from_file(1, 1) = -1;
+  if (axes == MeshAxes::kYUp) world_from_file << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  return world_from_file;
+}
+
+void ApplyModelOptions(const std::filesystem::path& file,
+                       const ModelOptions& options,
+                       PolygonModel& model) {
+  const MeshAxes own = FormatAxes(LowerCase(file.extension().string()));
+  const MeshAxes meant = AxesOf(file, options);
+  if (meant != own) {
+    const Eigen::Matrix3d meant_from_own = WorldFromAxes(meant) * WorldFromAxes(own).inverse();
+    for (Eigen::Vector3d& point : model.points_in_world) point = meant_from_own * point;
+  }
+  if (options.flip_faces) {
+    for (Face& face : model.faces) std::reverse(face.points.begin(), face.points.end());
+  }
+  if (options.sigma) model.sigma = options.sigma;
+}
 
 TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
                                        const ModelOptions& options,
@@ -73,11 +98,14 @@ TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
     result.warnings.insert(result.warnings.end(), mended.warnings.begin(), mended.warnings.end());
     KeepFaces(mended.usable, model, textures);
   }
-  if (options.unit && extension != ".glb" && extension != ".gltf") {
-    model.unit = *options.unit;
-    model.is_unit_assumed = false;
-  }
+  if (extension != ".glb" && extension != ".gltf") SetUnit(options, model);
   textures.resize(model.faces.size());
+  ApplyModelOptions(file, options, model);
+  if (options.flip_faces) {
+    for (FaceTexture& texture : textures) {
+      std::reverse(texture.corners_texel.begin(), texture.corners_texel.end());
+    }
+  }
   return result;
 }
 

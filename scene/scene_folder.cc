@@ -37,6 +37,12 @@ constexpr const char* kCamerasExpected =
     "no cameras here; expected .view files named after the photographs, or a COLMAP model "
     "(cameras.txt and images.txt, or cameras.bin and images.bin; in sparse/0 too)";
 
+// Said where no photograph has a tag.
+constexpr const char* kHowToBegin =
+    "A tag says where the camera stood (x y z), the point that it looked at (i j k), the frame's "
+    "width / height (a) and its horizontal view angle in degrees (v): groundglass check SCENE "
+    "--template writes one for each photograph, to be filled in; docs/tutorial.md tells how";
+
 template <size_t N>
 bool HasExtension(const fs::path& file, const std::array<std::string_view, N>& extensions) {
   const std::string extension = LowerCase(file.extension().string());
@@ -264,8 +270,10 @@ class SceneReader {
     } else if (options_.views) {
       Fault(Error(*options_.views, kCamerasExpected).what());
     } else {
-      Fault(
-          Error(folder_, "no tags; expected a folder views/ with .view files, or tags.csv").what());
+      Fault(Error(folder_,
+                  std::string("no tags; expected a folder views/ with .view files, or tags.csv. ") +
+                      kHowToBegin)
+                .what());
     }
   }
 
@@ -330,6 +338,7 @@ class SceneReader {
       left.push_back(image_names[i]);
       const std::string expected =
           tags_place_.empty() ? "views/" + name + ".view" : tags_place_ + " for " + name;
+      result_.scene.untagged_images.push_back(images.at(name));
       Warn(images.at(name), "photograph without a tag; expected " + expected);
     }
     for (const auto& [name, file] : known_names_) {
@@ -355,7 +364,6 @@ class SceneReader {
         result_.scene.warnings.insert(result_.scene.warnings.end(),
                                       inspection.warnings.begin(),
                                       inspection.warnings.end());
-        if (found != tags_.end()) LookForOddities(photograph);
       } catch (const Error& error) {
         FaultOf(name, error.what());
         not_images_.insert(image->second);
@@ -363,36 +371,11 @@ class SceneReader {
       result_.scene.photographs.push_back(std::move(photograph));
     }
     if (result_.scene.photographs.empty() && result_.faults.empty()) {
-      Fault(Error(folder_, "no photograph has a tag; expected images/s5.jpg beside views/s5.view")
+      Fault(Error(folder_,
+                  std::string("no photograph has a tag; expected images/s5.jpg beside "
+                              "views/s5.view. ") +
+                      kHowToBegin)
                 .what());
-    }
-  }
-
-  void LookForOddities(const Photograph& photograph) {
-    const fs::path place = !photograph.view_file.empty() ? photograph.view_file
-                           : !cameras_file_.empty()      ? cameras_file_
-                                                         : folder_ / "tags.csv";
-    const double image_aspect = static_cast<double>(photograph.size.width) / photograph.size.height;
-    const double ratio = photograph.tag.aspect / image_aspect;
-    // NTSC frames have pixels 1.1 from square; beyond 1.3 somebody has turned something.
-    if (ratio > 1.3 || ratio < 1 / 1.3) {
-      Warn(place,
-           "aspect " + FormatNumber(photograph.tag.aspect) + " does not suit " +
-               photograph.image_file.filename().string() + " of " +
-               std::to_string(photograph.size.width) + " x " +
-               std::to_string(photograph.size.height) + " pixels; is the picture turned?");
-    }
-    const Camera camera =
-        CameraFromTag(photograph.tag, photograph.size.width, photograph.size.height);
-    const std::vector<Eigen::Vector3d>& points = result_.scene.model.points_in_world;
-    const bool is_behind = std::all_of(points.begin(), points.end(), [&](const auto& point) {
-      return (camera.cam_from_world * point).z() <= 0;
-    });
-    if (!points.empty() && is_behind) {
-      Warn(place,
-           cameras_file_.empty()
-               ? "the whole model lies behind this camera; y runs south in view files"
-               : "the whole model lies behind the camera of " + photograph.name);
     }
   }
 

@@ -44,6 +44,7 @@ struct Scene {
   std::vector<std::filesystem::path> camera_files;
   std::vector<UnreadablePhotograph> unreadable;
   std::vector<std::string> left_out;  // names of photographs that the options leave out
+  std::vector<std::filesystem::path> untagged_images;  // photographs that no tag is there for
   std::vector<std::string> warnings;  // a photograph without a tag, a tag without a photograph, ...
 };
 

@@ -32,6 +32,8 @@ constexpr std::array<SigmaKey, 8> kSigmaKeys = {{
     {"sigma_k1", &TagSigmas::k1},
 }};
 constexpr std::string_view kCameraKey = "camera";
+// In place of a value that is yet to be written (FormatViewTemplate).
+constexpr std::string_view kToBeFilledIn = "?";
 // x y z i j k a v: without them there is no camera.
 constexpr int kNumRequiredKeys = 8;
 
@@ -88,6 +90,8 @@ ViewReading ReadPairs(const std::string& text, const std::filesystem::path& name
   const auto fail = [&](int line, const std::string& message) {
     reading.faults.push_back(Error(name, line, message).what());
   };
+  std::string to_fill_in;
+  int first_to_fill_in = 0;
   for (size_t i = 0; i < tokens.size(); ++i) {
     const TextToken& key = tokens[i];
     const bool has_value = i + 1 < tokens.size() && !IsKey(tokens[i + 1].text);
@@ -112,6 +116,11 @@ ViewReading ReadPairs(const std::string& text, const std::filesystem::path& name
       continue;
     }
     reading.pairs.push_back(pair);
+    if (pair.value.text == kToBeFilledIn) {
+      if (to_fill_in.empty()) first_to_fill_in = key.line;
+      to_fill_in += (to_fill_in.empty() ? "" : ", ") + std::string(key.text);
+      continue;
+    }
     if (key.text == kCameraKey) {
       reading.tag.camera = pair.value.text;
       continue;
@@ -126,6 +135,10 @@ ViewReading ReadPairs(const std::string& text, const std::filesystem::path& name
     } else {
       StoreValue(pair, *value, reading.tag);
     }
+  }
+  if (!to_fill_in.empty()) {
+    fail(first_to_fill_in,
+         "this template is not filled in yet: write a number in place of the ? of " + to_fill_in);
   }
   for (int index = 0; index < kNumRequiredKeys; ++index) {
     if (FindPair(reading.pairs, kTagKeyNames[index]) == nullptr) {

@@ -103,6 +103,7 @@ class Report {
     if (coverage_) body_ += FormatCoverageSection(*coverage_, UnitSuffix(scene_));
     body_ += FormatModelErrorSection(model_errors_, UnitSuffix(scene_));
     if (registrations_) AddPhotographs();
+    if (scene_) body_ += FormatWarningSection(scene_->warnings);
     AddFooter();
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
@@ -140,6 +141,10 @@ class Report {
     if (coverage_) {
       AddFact(FormatShare(coverage_->value("covered_share", 0.0)),
               "of the model\u2019s surface seen");
+    }
+    if (scene_ && !scene_->warnings.empty()) {
+      AddFact(std::to_string(scene_->warnings.size()),
+              scene_->warnings.size() == 1 ? "warning" : "warnings");
     }
     body_ += "</div>\n";
   }

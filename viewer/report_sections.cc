@@ -109,6 +109,14 @@ std::string FormatCoverageSection(const Json& coverage, const std::string& unit)
          "</details>\n";
 }
 
+std::string FormatWarningSection(const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return "";
+  std::string section =
+      "<h2>Warnings</h2>\n<p>What was odd about the scene as it was read.</p>\n<ul>";
+  for (const std::string& warning : warnings) section += "<li>" + EscapeHtml(warning) + "</li>\n";
+  return section + "</ul>\n";
+}
+
 std::string FormatModelErrorSection(const std::vector<ModelError>& errors,
                                     const std::string& unit) {
   if (errors.empty()) return "";

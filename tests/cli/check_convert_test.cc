@@ -106,6 +106,70 @@ TEST(Render, AModelWithoutItsPictureIsGreyAndSaysSo) {
   EXPECT_TRUE(fs::exists(work / "wall.png"));
 }
 
+TEST(Check, SaysHowTheModelWasReadAndWhereTheCamerasStand) {
+  const ProgramRun run = RunProgram({"check", kBrick});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("108 points, 70 faces; "));
+  EXPECT_THAT(run.out, HasSubstr("unit        ft, ASSUMED: neither the file nor --unit says it"));
+  EXPECT_THAT(run.out, HasSubstr("tolerance   edges may lie "));
+  EXPECT_THAT(run.out, testing::ContainsRegex("\ns5 +137\\.3 +21\\.8 +4\\.9 +E .* face 35"));
+  EXPECT_THAT(run.out, testing::EndsWith("0 faults, 0 warnings\n"));
+  EXPECT_THAT(RunProgram({"check", kBrick, "--unit", "ft", "--sigma-model", "0.5"}).out,
+              testing::AllOf(HasSubstr("ft, as --unit says"),
+                             HasSubstr("edges may lie 0.5 ft (0.152 m) off, as --sigma-model")));
+  const json result = json::parse(RunProgram({"check", kBrick, "--json"}).out);
+  EXPECT_EQ(result["model"]["unit_is_assumed"], true);
+  EXPECT_EQ(result["photographs"][4]["stands"], "E");
+  EXPECT_TRUE(result["oddities"].empty());
+}
+
+TEST(Check, DrawsWhatCanBeDrawnInSpiteOfFaults) {
+  const TemporaryFolder work;
+  CopyBrick(work / "scene", {"s1", "s2", "s3"});
+  WriteAll(work / "scene" / "images" / "s2.jpg", "no picture");
+  WriteAll(work / "scene" / "views" / "s3.view", "x 1");
+  const ProgramRun run = RunProgram(
+      {"check", (work / "scene").string(), "-o", (work / "overlays").string(), "--quiet"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_TRUE(fs::exists(work / "overlays" / "s1.jpg"));
+  EXPECT_FALSE(fs::exists(work / "overlays" / "s2.jpg"));
+  EXPECT_THAT(run.out, HasSubstr("1 overlays in "));
+}
+
+TEST(Check, WritesTemplatesAndKnowsThatTheyAreNotFilledIn) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1", "s2"});
+  fs::remove_all(scene / "views");
+  const ProgramRun untagged = RunProgram({"check", scene.string()});
+  EXPECT_EQ(untagged.status, 1);
+  for (const char* part : {"no tags", "(x y z)", "--template", "docs/tutorial.md"}) {
+    EXPECT_THAT(untagged.out, HasSubstr(part));
+  }
+  const ProgramRun templates = RunProgram({"check", scene.string(), "--template"});
+  EXPECT_EQ(templates.status, 0) << templates.err;
+  EXPECT_THAT(templates.out, HasSubstr("s1.view"));
+  const std::string text = ReadAll(scene / "views" / "s1.view");
+  EXPECT_THAT(text, testing::AllOf(HasSubstr("\nx ?"), HasSubstr("\na 1.5 "), HasSubstr("\nv ?")));
+  const ProgramRun again = RunProgram({"check", scene.string()});
+  EXPECT_EQ(again.status, 1);
+  EXPECT_THAT(again.out, HasSubstr("this template is not filled in yet"));
+  // What is there is left alone; a lens that is told fills in its angle.
+  WriteAll(scene / "views" / "s1.view", "x 1 % mine");
+  fs::remove(scene / "views" / "s2.view");
+  EXPECT_EQ(RunProgram({"check", scene.string(), "--template", "--focal-length", "35"}).status, 0);
+  EXPECT_EQ(ReadAll(scene / "views" / "s1.view"), "x 1 % mine");
+  EXPECT_THAT(ReadAll(scene / "views" / "s2.view"), HasSubstr("\nv 54.43 "));
+}
+
+TEST(Convert, ChangesTheUnitOfLengths) {
+  const TemporaryFolder work;
+  WriteAll(work / "mm.osu", "% unit: mm\n3 1\n0 0 0\n1500 0 0\n0 0 2500\n3 1 2 3\n");
+  const std::string out = (work / "m.osu").string();
+  ASSERT_EQ(RunProgram({"convert", (work / "mm.osu").string(), out, "--to-unit", "m"}).status, 0);
+  EXPECT_THAT(ReadAll(out), testing::AllOf(HasSubstr("unit: m\n"), HasSubstr("\n1.5 0 0\n")));
+}
+
 TEST(Convert, AModelSurvivesTheWayThroughObj) {
   const TemporaryFolder work;
   const std::string obj = (work / "a.obj").string();

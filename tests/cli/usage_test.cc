@@ -45,6 +45,95 @@ TEST(Usage, HelpAndVersionAreNoErrors) {
   EXPECT_THAT(version.out, StartsWith("groundglass 0."));
 }
 
+TEST(Usage, EveryHelpEndsWithAnExample) {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"run"},
+                                                  {"check"},
+                                                  {"calibrate"},
+                                                  {"calibrate", "board"},
+                                                  {"register"},
+                                                  {"invrender"},
+                                                  {"render"},
+                                                  {"synth"},
+                                                  {"evaluate"},
+                                                  {"convert"}}) {
+    std::vector<std::string> words = command;
+    words.push_back("--help");
+    const ProgramRun help = RunProgram(words);
+    EXPECT_EQ(help.status, 0) << command.back();
+    const size_t example = help.out.rfind("Example:\n  groundglass " + command.front());
+    ASSERT_NE(example, std::string::npos) << command.back();
+    // Nothing after it but the lines to copy.
+    const std::string rest = help.out.substr(help.out.find('\n', example) + 1);
+    EXPECT_THAT(rest, StartsWith("  groundglass ")) << command.back();
+    EXPECT_EQ(rest.find("--help"), std::string::npos) << command.back();
+  }
+  // No words: the help, which says what there is.
+  const ProgramRun nothing = RunProgram({});
+  EXPECT_THAT(nothing.out, HasSubstr("Example:"));
+  EXPECT_THAT(nothing.out, HasSubstr("invrender"));
+}
+
+TEST(Usage, ChoicesAreListedForPeople) {
+  const std::string help = RunProgram({"render", "--help"}).out;
+  EXPECT_THAT(help, HasSubstr("--mode labels|shaded|textured|wire"));
+  EXPECT_EQ(help.find("ENUM"), std::string::npos);
+  EXPECT_EQ(RunProgram({"render", "m.osu", "--view", "v", "-o", "o.png", "--mode", "oil"}).status,
+            2);
+}
+
+TEST(Usage, ModelOptionsAreInEveryCommandThatReadsAModel) {
+  for (const char* command :
+       {"check", "run", "register", "invrender", "render", "convert", "evaluate"}) {
+    const std::string help = RunProgram({command, "--help"}).out;
+    for (const char* option : {"--up", "--frame", "--unit", "--sigma-model", "--flip-faces"}) {
+      EXPECT_THAT(help, HasSubstr(option)) << command;
+    }
+    EXPECT_THAT(help, HasSubstr("ft, m, mm, cm, in or us-ft")) << command;
+  }
+}
+
+TEST(Usage, AMistypedWordIsNamedWithWhatWasMeant) {
+  const auto message = [](const std::vector<std::string>& words) {
+    const ProgramRun run = RunProgram(words);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, StartsWith("groundglass: "));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    return run.err;
+  };
+  EXPECT_THAT(message({"rn", "scene", "-o", "out"}), HasSubstr("'rn'; did you mean run?"));
+  EXPECT_THAT(message({"regster"}), HasSubstr("'regster'; did you mean register?"));
+  EXPECT_THAT(message({"paint"}), testing::Not(HasSubstr("did you mean")));
+  EXPECT_THAT(message({"calibrate", "bord"}), HasSubstr("'bord'; did you mean board?"));
+  EXPECT_THAT(message({"run", "scene", "-o", "out", "--stils", "3"}),
+              HasSubstr("there is no option --stils; did you mean --stills?"));
+  EXPECT_THAT(message({"run", "scene", "-o", "out", "--unit", "furlong"}),
+              HasSubstr("ft, m, mm, cm, in or us-ft"));
+}
+
+TEST(Usage, ErrorsAreObjectsForThoseWhoAskForJson) {
+  const TemporaryFolder work;
+  const std::string nowhere = (work / "nowhere").string();
+  const std::string out = (work / "out").string();
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"run", nowhere, "-o", out},
+                                                {"register", nowhere, "-o", out},
+                                                {"invrender", nowhere, "-o", out},
+                                                {"render", nowhere, "--view", nowhere, "-o", out},
+                                                {"evaluate", nowhere, "--truth", nowhere},
+                                                {"convert", nowhere + ".osu", out + ".obj"},
+                                                {"calibrate", "board", nowhere, "-o", out},
+                                                {"synth", "no-such-preset", "-o", out}}) {
+    std::vector<std::string> with_json = words;
+    with_json.push_back("--json");
+    const ProgramRun run = RunProgram(with_json);
+    const nlohmann::json error = nlohmann::json::parse(run.out, nullptr, false);
+    ASSERT_TRUE(error.is_object()) << words.front() << ": " << run.out;
+    EXPECT_EQ(error["exit"], 1) << words.front();
+    EXPECT_EQ("groundglass: " + error["error"].get<std::string>() + "\n", run.err);
+  }
+  const nlohmann::json usage = nlohmann::json::parse(RunProgram({"rn", "--json"}).out);
+  EXPECT_EQ(usage["exit"], 2);
+}
+
 TEST(Usage, WrongUsageEndsWithTwo) {
   EXPECT_EQ(RunProgram({}).status, 2);
   EXPECT_EQ(RunProgram({"paint"}).status, 2);

@@ -59,6 +59,37 @@ TEST(Obj, ReadsIndicesOfEveryKindAndAxes) {
   EXPECT_EQ(ReadModel(file, options).model.points_in_world[2], Eigen::Vector3d(1, -1, 0));
 }
 
+TEST(ModelOptions, SayMoreThanAnyFile) {
+  const TemporaryFolder folder;
+  const auto osu = folder.Write("m.osu", "3 1\n0 0 0\n1 2 3\n4 0 0\n3 1 2 3\n");
+  const auto obj = folder.Write("m.obj", "v 0 0 0\nv 1 2 3\nv 4 0 0\nf 1 2 3\n");
+  EXPECT_TRUE(ReadModel(osu).model.is_unit_assumed);
+  EXPECT_TRUE(ReadModel(obj).model.is_unit_assumed);
+  ModelOptions options;
+  options.unit = LengthUnit::kMillimetre;
+  options.sigma = 2.5;
+  options.flip_faces = true;
+  for (const auto& file : {osu, obj}) {
+    const PolygonModel model = ReadModel(file, options).model;
+    EXPECT_EQ(model.unit, LengthUnit::kMillimetre);
+    EXPECT_FALSE(model.is_unit_assumed);
+    EXPECT_EQ(model.sigma, 2.5);
+    EXPECT_THAT(model.faces[0].points, ElementsAre(2, 1, 0));
+  }
+  // Axes are the file's: .osu is `site` by itself, the others are `world`.
+  const auto second_point = [&](const std::filesystem::path& file, MeshAxes axes) {
+    options.mesh_axes = axes;
+    return ReadModel(file, options).model.points_in_world[1];
+  };
+  for (const auto& file : {osu, obj}) {
+    EXPECT_EQ(second_point(file, MeshAxes::kWorld), Eigen::Vector3d(1, 2, 3));
+    EXPECT_EQ(second_point(file, MeshAxes::kSite), Eigen::Vector3d(1, -2, 3));
+    EXPECT_EQ(second_point(file, MeshAxes::kYUp), Eigen::Vector3d(1, -3, 2));
+  }
+  EXPECT_EQ(second_point(osu, MeshAxes::kZUp), Eigen::Vector3d(1, -2, 3));
+  EXPECT_EQ(second_point(obj, MeshAxes::kZUp), Eigen::Vector3d(1, 2, 3));
+}
+
 TEST(Obj, BadOnesGiveOneLine) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& text) {

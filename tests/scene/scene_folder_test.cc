@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/scene_folder.h"
 
+#include "scene/advice.h"
 #include "scene/tags_csv.h"
 #include "scene/view_io.h"
 #include "tests/support/temporary_folder.h"
@@ -219,7 +220,10 @@ TEST(CheckScene, WarnsOfATurnedPictureAndACameraWithItsBackToTheModel) {
   WriteSrgb8(folder / "images/s2.jpg", Image8(20, 30, 3, 128));
   std::filesystem::remove(folder / "masks/s2.png");
   folder.Write("views/s10.view", "x 5 y -20 z 2 i 5 j -40 k 2 a 1.5 v 40");
-  const std::vector<std::string> warnings = CheckScene(folder.path()).scene.warnings;
+  std::vector<std::string> warnings;
+  for (const Advice& advice : FindOddities(CheckScene(folder.path()).scene)) {
+    warnings.push_back(FormatAdvice(advice));
+  }
   EXPECT_THAT(warnings,
               Contains(HasSubstr("views/s2.view: aspect 1.5 does not suit s2.jpg of 20 x 30")));
   EXPECT_THAT(warnings,

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "cli/check_report.h"
+
+#include "scene/standpoint.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace groundglass {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+__attribute__((format(printf, 1, 2))) std::string Printed(const char* format, ...) {
+  std::array<char, 2000> text;
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  va_end(arguments);
+  return text.data();
+}
+
+std::string FormatSize(const Eigen::Vector3d& size, double scale, const std::string& unit) {
+  return Printed(
+      "%.4g x %.4g x %.4g %s", size.x() * scale, size.y() * scale, size.z() * scale, unit.c_str());
+}
+
+std::vector<Standpoint> FindStandpoints(const Scene& scene) {
+  std::vector<Standpoint> standpoints;
+  if (scene.model.faces.empty()) return standpoints;
+  const Visibility visibility(scene.model);
+  const Box bounds = ComputeBounds(scene.model);
+  for (const Photograph& photograph : scene.photographs) {
+    standpoints.push_back(
+        FindStandpoint(bounds, visibility, scene.model, photograph.tag, photograph.size));
+  }
+  return standpoints;
+}
+
+std::string LooksAt(const PolygonModel& model, const Standpoint& standpoint) {
+  if (standpoint.face < 0) return standpoint.model_share > 0 ? "beside it" : "-";
+  return DescribeFace(model, standpoint.face) + (standpoint.shows_front ? "" : ", its back");
+}
+
+std::string FormatCameraTable(const Scene& scene) {
+  const std::vector<Standpoint> standpoints = FindStandpoints(scene);
+  if (standpoints.empty()) return "";
+  const std::string unit = UnitName(scene.model.unit);
+  size_t width = 10;
+  for (const Photograph& photograph : scene.photographs) {
+    width = std::max(width, photograph.name.size());
+  }
+  std::string table = Printed("\n%-*s  %9s %9s %8s  %-8s %9s  %6s  %s\n",
+                              static_cast<int>(width),
+                              "photograph",
+                              "x",
+                              "y",
+                              ("z, " + unit).c_str(),
+                              "stands",
+                              "distance",
+                              "angle",
+                              "looks at");
+  for (size_t i = 0; i < standpoints.size(); ++i) {
+    const Standpoint& standpoint = standpoints[i];
+    table += Printed("%-*s  %9.1f %9.1f %8.1f  %-8s %9.4g  %6.1f  %s\n",
+                     static_cast<int>(width),
+                     scene.photographs[i].name.c_str(),
+                     standpoint.position_in_site.x(),
+                     standpoint.position_in_site.y(),
+                     standpoint.position_in_site.z(),
+                     standpoint.bearing.c_str(),
+                     standpoint.distance,
+                     scene.photographs[i].tag.view_angle_deg,
+                     LooksAt(scene.model, standpoint).c_str());
+  }
+  return table;
+}
+
+std::string Count(size_t number, const std::string& what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string FormatModelSummary(const PolygonModel& model, const ModelArguments& arguments) {
+  if (model.faces.empty()) return "";
+  const Box bounds = ComputeBounds(model);
+  const Eigen::Vector3d size = bounds.max - bounds.min;
+  const std::string unit = UnitName(model.unit);
+  std::string text = "model       " + Count(model.points_in_world.size(), "point") + ", " +
+                     Count(model.faces.size(), "face") + "; " + FormatSize(size, 1, unit);
+  if (model.unit != LengthUnit::kMetre) {
+    text += " (" + FormatSize(size, MetresPerUnit(model.unit), "m") + ")";
+  }
+  text += "\nunit        " + unit;
+  text += arguments.unit          ? ", as --unit says"
+          : model.is_unit_assumed ? ", ASSUMED: neither the file nor --unit says it"
+                                  : ", as the file says";
+  return text + "\ntolerance   " + DescribeTolerance(model, arguments) + "\n";
+}
+
+std::string FormatCheckReport(const CheckReport& report, const ModelArguments& arguments) {
+  const Scene& scene = report.check.scene;
+  std::string text = FormatModelSummary(scene.model, arguments) + FormatCameraTable(scene);
+  if (!text.empty()) text += "\n";
+  for (const std::string& fault : report.check.faults) text += "fault: " + fault + "\n";
+  for (const std::string& warning : scene.warnings) text += "warning: " + warning + "\n";
+  for (const Advice& advice : report.oddities) text += "warning: " + FormatAdvice(advice) + "\n";
+  return text + Count(scene.photographs.size(), "photograph") + " with " +
+         (scene.photographs.size() == 1 ? "a tag" : "tags") + ", " +
+         Count(scene.model.points_in_world.size(), "point") + ", " +
+         Count(scene.model.faces.size(), "face") + "; " +
+         Count(report.check.faults.size(), "fault") + ", " +
+         Count(report.NumWarnings(), "warning") + "\n";
+}
+
+std::string FormatCheckReportJson(const CheckReport& report, const ModelArguments& arguments) {
+  const Scene& scene = report.check.scene;
+  const PolygonModel& model = scene.model;
+  Json json;
+  json["faults"] = report.check.faults;
+  std::vector<std::string> warnings = scene.warnings;
+  for (const Advice& advice : report.oddities) warnings.push_back(FormatAdvice(advice));
+  json["warnings"] = warnings;
+  json["oddities"] = Json::array();
+  for (const Advice& advice : report.oddities) {
+    json["oddities"].push_back(
+        {{"concerns", advice.severity == Advice::Severity::kScene ? "scene" : "detail"},
+         {"subject", advice.subject},
+         {"message", advice.message},
+         {"remedy", advice.remedy}});
+  }
+  json["points"] = model.points_in_world.size();
+  json["faces"] = model.faces.size();
+  const Box bounds = ComputeBounds(model);
+  const Eigen::Vector3d size = bounds.max - bounds.min;
+  json["model"] = {{"unit", UnitName(model.unit)},
+                   {"unit_is_assumed", model.is_unit_assumed},
+                   {"size", {size.x(), size.y(), size.z()}},
+                   {"metres_per_unit", MetresPerUnit(model.unit)},
+                   {"tolerance", DescribeTolerance(model, arguments)}};
+  json["photographs"] = Json::array();
+  const std::vector<Standpoint> standpoints = FindStandpoints(scene);
+  for (size_t i = 0; i < scene.photographs.size(); ++i) {
+    const Photograph& photograph = scene.photographs[i];
+    Json entry = {{"name", photograph.name},
+                  {"image", photograph.image_file.string()},
+                  {"width_px", photograph.size.width},
+                  {"height_px", photograph.size.height}};
+    if (i < standpoints.size()) {
+      const Standpoint& standpoint = standpoints[i];
+      const Eigen::Vector3d& position = standpoint.position_in_site;
+      entry["position_in_site"] = {position.x(), position.y(), position.z()};
+      entry["stands"] = standpoint.bearing;
+      entry["distance"] = standpoint.distance;
+      entry["view_angle_deg"] = photograph.tag.view_angle_deg;
+      entry["looks_at"] = LooksAt(model, standpoint);
+      entry["model_share"] = standpoint.model_share;
+    }
+    json["photographs"].push_back(std::move(entry));
+  }
+  json["overlays"] = report.overlays;
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace groundglass

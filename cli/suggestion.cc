@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "cli/suggestion.h"
+
+#include <algorithm>
+
+namespace groundglass {
+namespace {
+
+// How many letters to insert, leave out, replace or exchange with their neighbour.
+size_t EditDistance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<size_t>> distance(a.size() + 1, std::vector<size_t>(b.size() + 1));
+  for (size_t i = 0; i <= a.size(); ++i) distance[i][0] = i;
+  for (size_t k = 0; k <= b.size(); ++k) distance[0][k] = k;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    for (size_t k = 1; k <= b.size(); ++k) {
+      const size_t replaced = distance[i - 1][k - 1] + (a[i - 1] == b[k - 1] ? 0 : 1);
+      distance[i][k] = std::min({distance[i - 1][k] + 1, distance[i][k - 1] + 1, replaced});
+      if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1]) {
+        distance[i][k] = std::min(distance[i][k], distance[i - 2][k - 2] + 1);
+      }
+    }
+  }
+  return distance[a.size()][b.size()];
+}
+
+std::vector<std::string> CommandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> OptionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+// The command that was parsed last: "calibrate board" of its words.
+const CLI::App& InnermostCommand(const CLI::App& app) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  return parsed.empty() ? app : InnermostCommand(*parsed.back());
+}
+
+std::string WholeName(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return (parent ? WholeName(*parent) + " " : "") + command.get_name();
+}
+
+std::string Meant(const std::string& word, const std::vector<std::string>& known) {
+  const std::optional<std::string> nearest = FindNearest(word, known);
+  return nearest ? "; did you mean " + *nearest + "?" : "";
+}
+
+}  // namespace
+
+std::optional<std::string> FindNearest(const std::string& word,
+                                       const std::vector<std::string>& known) {
+  std::optional<std::string> nearest;
+  // More than a third of the letters wrong is another word.
+  size_t least = std::max<size_t>(1, word.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    const bool is_cut_short = word.size() >= 3 && candidate.rfind(word, 0) == 0;
+    const size_t distance = is_cut_short ? 1 : EditDistance(word, candidate);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+std::string DescribeUsageError(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& command = InnermostCommand(app);
+  const std::string where = WholeName(command) + ": ";
+  std::string message;
+  const std::vector<std::string> extras = command.remaining();
+  if (error.get_name() == "ExtrasError" && !extras.empty()) {
+    const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
+      return word.size() > 1 && word.front() == '-';
+    });
+    if (option == extras.end()) {
+      message = where + "'" + extras.front() + "' is one word too many";
+    } else {
+      const std::string name = option->substr(0, option->find('='));
+      message = where + "there is no option " + name + Meant(name, OptionNames(command));
+    }
+  } else {
+    message = where + error.what();
+  }
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return message + " (" + WholeName(command) + " --help)";
+}
+
+std::optional<std::string> FindUnknownCommand(const CLI::App& app,
+                                              const std::vector<std::string>& words) {
+  const CLI::App* command = &app;
+  for (const std::string& word : words) {
+    const std::vector<std::string> known = CommandNames(*command);
+    if (known.empty() || word == "--help" || word == "-h") return std::nullopt;
+    if (word.empty() || word.front() == '-') continue;
+    if (std::find(known.begin(), known.end(), word) == known.end()) {
+      std::string list;
+      for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+      return WholeName(*command) + ": there is no command '" + word + "'" + Meant(word, known) +
+             " (there are " + list + ")";
+    }
+    command = command->get_subcommand(word);
+  }
+  return std::nullopt;
+}
+
+}  // namespace groundglass

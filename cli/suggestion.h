@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// The word among `known` that `word` was most likely meant to be: a few letters off, or cut short.
+std::optional<std::string> FindNearest(const std::string& word,
+                                       const std::vector<std::string>& known);
+
+// What is wrong with a command line that could not be parsed, in one line: the word that is at
+// fault, and what it was most likely meant to be.
+std::string DescribeUsageError(const CLI::App& app, const CLI::ParseError& error);
+// The same before parsing, for a first word that is no command; nothing if there is none.
+std::optional<std::string> FindUnknownCommand(const CLI::App& app,
+                                              const std::vector<std::string>& words);
+
+}  // namespace groundglass
