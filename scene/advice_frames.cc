@@ -30,7 +30,7 @@ void AdviseOnAspect(const AdviceContext& context, const Photograph& photograph) 
   std::string remedy = "a is width / height of the whole frame: write " +
                        FormatNumber(std::round(1000 * aspect) / 1000);
   if (Suits(tag_aspect, 1 / aspect)) {
-    const int orientation = ReadExifOrientation(photograph.image_file);
+    const int orientation = photograph.size.orientation;
     if (orientation >= 5) {
       message += " after the turn that its EXIF asks for (orientation " +
                  std::to_string(orientation) + "), only before it";

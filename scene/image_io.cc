@@ -97,10 +97,6 @@ ImageInspection InspectImage(const std::filesystem::path& file) {
   return inspection;
 }
 
-int ReadExifOrientation(const std::filesystem::path& file) {
-  return OpenImage(file).ExifOrientation();
-}
-
 ImageF ReadRadiance(const std::filesystem::path& file) {
   OpenImage image(file);
   image.CheckIsWhole();

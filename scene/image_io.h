@@ -35,9 +35,6 @@ struct ImageInspection {
 };
 ImageInspection InspectImage(const std::filesystem::path& file);
 
-// How the file asks to be turned before it is shown: EXIF's 1 (not at all) to 8; from 5 on its sides
-// change places.
-int ReadExifOrientation(const std::filesystem::path& file);
 // Linear light, 3 channels; an alpha channel is dropped, grey is repeated.
 ImageF ReadRadiance(const std::filesystem::path& file);
 // 8-bit sRGB, 3 channels.
