@@ -223,10 +223,11 @@ void AddInvrenderCommand(CLI::App& app, int& exit_status) {
     command->add_option("-o,--out", arguments->out_folder, "where to write the textured model")
         ->required();
     command
-        ->add_option("--views",
-                     arguments->views_folder,
-                     ".view files or a COLMAP model (text, binary, sparse/0) in place of the scene's "
-                     "own tags; verdicts in a registration.json beside views are heeded")
+        ->add_option(
+            "--views",
+            arguments->views_folder,
+            ".view files or a COLMAP model (text, binary, sparse/0) in place of the scene's "
+            "own tags; verdicts in a registration.json beside views are heeded")
         ->type_name("FOLDER");
     command->add_option("--model", arguments->model_file, "in place of the one in the scene folder")
         ->type_name("FILE");

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "scene/advice.h"
 #include "scene/error.h"
+#include "scene/model_sigma.h"
 
 namespace groundglass {
 
@@ -58,9 +59,7 @@ void AddModelOptions(CLI::App* command, ModelArguments& arguments) {
 }
 
 std::string DescribeTolerance(const PolygonModel& model, const ModelArguments& arguments) {
-  constexpr double kDefault_m = 0.03;
-  const double sigma = model.sigma.value_or(kDefault_m / MetresPerUnit(model.unit));
-  return "edges may lie " + FormatLength(sigma, model.unit) + " off, " +
+  return "edges may lie " + FormatLength(ModelSigma(model), model.unit) + " off, " +
          (arguments.sigma ? "as --sigma-model says"
           : model.sigma   ? "as the model says"
                           : "by default; --sigma-model says otherwise");

@@ -2,21 +2,15 @@
 # A room is one folder, one static library, one subject. Rooms see one another only through
 # NEEDS; tests/include_directions.cmake holds the #include lines to the same table.
 
-# GCC 12 sees overlapping and endless copies in plain std::string sums (its bug 105651).
+# GCC 12 sees overlapping copies in plain std::string assignments (its bug 105651): -Wno-restrict.
 set(GROUNDGLASS_WARNINGS -Wall -Wextra -Wshadow -Wnon-virtual-dtor
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds> -Werror)
-
-# What most sources include, parsed once for each target. Every source still names what it uses:
-# the tidy preset builds without precompiled headers.
-set(GROUNDGLASS_PRECOMPILED <Eigen/Dense> <algorithm> <array> <cmath> <cstdint> <cstdio>
-    <filesystem> <functional> <map> <memory> <numbers> <optional> <span> <string> <vector>)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -Werror)
 
 # groundglass_room(scene SOURCES a.cc b.cc NEEDS Eigen3::Eigen PRIVATE embree)
 # NEEDS: what a user of the room's headers needs; PRIVATE: what only its sources use.
-# PRECOMPILED: large third-party headers that several of its sources include.
 # INTERNAL (last): headers that are not installed and may show third-party types.
 function(groundglass_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;NEEDS;PRIVATE;PRECOMPILED;INTERNAL" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;NEEDS;PRIVATE;INTERNAL" ${ARGN})
   string(REPLACE "-" "_" target_suffix ${name})
   set(target groundglass_${target_suffix})
   add_library(${target} STATIC ${ROOM_SOURCES})
@@ -26,7 +20,6 @@ function(groundglass_room name)
            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/groundglass>)
   target_link_libraries(${target} PUBLIC ${ROOM_NEEDS} PRIVATE ${ROOM_PRIVATE})
   target_compile_options(${target} PRIVATE ${GROUNDGLASS_WARNINGS})
-  target_precompile_headers(${target} PRIVATE ${GROUNDGLASS_PRECOMPILED} ${ROOM_PRECOMPILED})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${target_suffix})
   install(TARGETS ${target} EXPORT groundglassTargets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
@@ -48,8 +41,6 @@ function(groundglass_test room)
   target_link_libraries(${target} PRIVATE ${T_NEEDS} GTest::gtest GTest::gmock GTest::gtest_main)
   # Tests wait for the compiler more than for themselves.
   target_compile_options(${target} PRIVATE ${GROUNDGLASS_WARNINGS} $<$<CONFIG:Release>:-O1>)
-  target_precompile_headers(${target} PRIVATE
-    ${GROUNDGLASS_PRECOMPILED} <gmock/gmock.h> <gtest/gtest.h>)
   target_compile_definitions(${target} PRIVATE
     GROUNDGLASS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(${target} TEST_PREFIX ${room}/ DISCOVERY_TIMEOUT 120

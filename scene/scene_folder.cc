@@ -361,9 +361,8 @@ class SceneReader {
       try {
         const ImageInspection inspection = InspectImage(image->second);
         photograph.size = inspection.size;
-        result_.scene.warnings.insert(result_.scene.warnings.end(),
-                                      inspection.warnings.begin(),
-                                      inspection.warnings.end());
+        result_.scene.warnings.insert(
+            result_.scene.warnings.end(), inspection.warnings.begin(), inspection.warnings.end());
       } catch (const Error& error) {
         FaultOf(name, error.what());
         not_images_.insert(image->second);
