@@ -66,6 +66,17 @@ std::vector<fs::path> ListFiles(const fs::path& folder) {
   return files;
 }
 
+// Where the .view files of a folder given in place of the scene's own lie: in it, or in its views/
+// if it is an output folder.
+fs::path FindViews(const fs::path& given) {
+  for (const fs::path& folder : {given, given / "views"}) {
+    for (const fs::path& file : ListFiles(folder)) {
+      if (file.extension() == ".view") return folder;
+    }
+  }
+  return {};
+}
+
 struct NaturalOrder {
   bool operator()(const std::string& a, const std::string& b) const { return NaturalLess(a, b); }
 };

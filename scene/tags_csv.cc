@@ -171,7 +171,7 @@ class TableReader {
       view_text +=
           column + " " + (column == "camera" ? fields[index] : FormatNumber(number(column))) + " ";
     }
-    if (table_.faults.size() > faults_before) return;
+    if (!is_sound) return;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     if (is_geodetic_) {
       position = SiteFromGeodetic(model_, number("lat"), number("lon"), number("height"));
