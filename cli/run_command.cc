@@ -20,6 +20,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 namespace groundglass {
 namespace {

@@ -99,8 +99,10 @@ TEST(RegisterScene, WhatCannotBeReadIsAVerdictAndNotTheEnd) {
   WriteLabels(*scene.photographs[0].mask_file, Image16(30, 20, 1));
   // Gone since the scene was read.
   scene.photographs[1].image_file = folder / "s2.jpg";
-  scene.unreadable.push_back(
-      {{.name = "s9"}, {(scene.folder / "images/s9.jpg").string() + ": no"}});
+  UnreadablePhotograph unreadable;
+  unreadable.photograph.name = "s9";
+  unreadable.reasons = {(scene.folder / "images/s9.jpg").string() + ": no"};
+  scene.unreadable.push_back(unreadable);
   RegisterOptions options;
   options.overrule.accept = {"s1", "s9"};  // nobody can accept what is not there
   const std::vector<Registration> found = RegisterScene(scene, {}, options, {}).registrations;
@@ -124,7 +126,7 @@ TEST(RegisterScene, WithoutACommonSolutionEachKeepsItsOwn) {
   options.independent = true;
   const RegisteredScene alone = RegisterScene(scene, {}, options, {});
   options.independent = false;
-  options.joint.ground_level_m = 1e200;  // its square is beyond all numbers
+  options.joint.common_offset_m = 1e200;  // its square is beyond all numbers
   const RegisteredScene together = RegisterScene(scene, {}, options, {});
   EXPECT_EQ(FormatRegistrations(together.registrations), FormatRegistrations(alone.registrations));
   ASSERT_EQ(together.warnings.size(), 1u);

@@ -93,7 +93,10 @@ TEST(WriteFileAtomically, AModelThatDoesNotFitIsAnError) {
   model.model.faces[0].points = {0, 1, 2};
   model.pages.resize(1);
   model.pages[0].srgb8 = MakeNoise<Image8>(3);
-  model.faces = {{0, {{0, 0}, {100, 0}, {100, 100}}}};
+  model.faces.resize(1);
+  model.faces[0].page = 0;
+  model.faces[0].corners_texel = {
+      Eigen::Vector2d(0, 0), Eigen::Vector2d(100, 0), Eigen::Vector2d(100, 100)};
   ExpectNothingHalf("model.glb", [&](const fs::path& file) { WriteGlb(file, model); });
 }
 
