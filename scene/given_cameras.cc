@@ -55,9 +55,10 @@ GivenCameras MatchColmapModel(const ColmapFiles& files,
   GivenCameras given;
   given.files = {files.cameras_file, files.images_file};
   given.warnings = files.warnings;
+  const ImagePathFinder finder(image_paths);
   std::vector<std::string> strays;
   for (const NamedCamera& camera : ReadColmapModel(files)) {
-    const std::optional<size_t> image = FindImagePath(image_paths, camera.name);
+    const std::optional<size_t> image = finder.Find(camera.name);
     if (!image) {
       strays.push_back(camera.name);
       continue;

@@ -80,29 +80,40 @@ std::vector<std::string> NamePhotographs(const std::vector<std::string>& paths) 
   return names;
 }
 
-std::optional<size_t> FindImagePath(const std::vector<std::string>& paths,
-                                    const std::string& name) {
-  std::vector<std::string> wanted = PartsOf(name);
-  if (wanted.empty()) return std::nullopt;
-  std::vector<std::vector<std::string>> candidates;
-  for (const std::string& path : paths) candidates.push_back(PartsOf(path));
-  // With the extension, without it, without regard to case.
-  for (int attempt = 0; attempt < 3; ++attempt) {
-    const auto simplify = [&](std::vector<std::string>& parts) {
-      if (parts.empty()) return;
-      if (attempt == 1) parts.back() = WithoutExtension(parts.back());
-      if (attempt == 2) {
-        for (std::string& part : parts) part = LowerCase(part);
+void ImagePathFinder::Simplify(int attempt, Parts& parts) {
+  if (attempt >= 1) parts.back() = WithoutExtension(parts.back());
+  if (attempt >= 2) {
+    for (std::string& part : parts) part = LowerCase(part);
+  }
+}
+
+ImagePathFinder::ImagePathFinder(const std::vector<std::string>& paths) {
+  for (int attempt = 0; attempt < kNumAttempts; ++attempt) {
+    for (size_t i = 0; i < paths.size(); ++i) {
+      Parts parts = PartsOf(paths[i]);
+      if (!parts.empty()) {
+        Simplify(attempt, parts);
+        paths_of_last_part_[attempt][parts.back()].push_back(i);
       }
-    };
-    simplify(wanted);
+      parts_of_path_[attempt].push_back(std::move(parts));
+    }
+  }
+}
+
+std::optional<size_t> ImagePathFinder::Find(const std::string& name) const {
+  for (int attempt = 0; attempt < kNumAttempts; ++attempt) {
+    Parts wanted = PartsOf(name);
+    if (wanted.empty()) return std::nullopt;
+    Simplify(attempt, wanted);
+    const auto alike = paths_of_last_part_[attempt].find(wanted.back());
+    if (alike == paths_of_last_part_[attempt].end()) continue;
     size_t most = 0;
     std::optional<size_t> best;
-    for (size_t i = 0; i < candidates.size(); ++i) {
-      simplify(candidates[i]);
-      if (candidates[i] == wanted && attempt == 0) return i;
-      const size_t shared = NumShared(candidates[i], wanted);
-      if (shared == 0 || shared < most) continue;
+    for (const size_t i : alike->second) {
+      const Parts& parts = parts_of_path_[attempt][i];
+      if (parts == wanted) return i;
+      const size_t shared = NumShared(parts, wanted);
+      if (shared < most) continue;
       best = shared > most ? std::optional(i) : std::nullopt;
       most = shared;
     }

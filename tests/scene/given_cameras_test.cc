@@ -30,16 +30,17 @@ TEST(NamePhotographs, TakeTheirFoldersWhereTheStemIsNotEnough) {
   EXPECT_THAT(NamePhotographs({"a.jpg", "a.png"}), ElementsAre("a", "a"));
 }
 
-TEST(FindImagePath, FoldersAndExtensionHelpAsFarAsTheyCan) {
+TEST(ImagePathFinder, FoldersAndExtensionHelpAsFarAsTheyCan) {
   const std::vector<std::string> paths = {"north/0001.jpg", "east/0001.jpg", "s5.JPG"};
-  EXPECT_EQ(FindImagePath(paths, "north/0001.jpg"), 0u);
-  EXPECT_EQ(FindImagePath(paths, "east\\0001.jpg"), 1u);
-  EXPECT_EQ(FindImagePath(paths, "/home/me/project/images/east/0001.jpg"), 1u);
-  EXPECT_EQ(FindImagePath(paths, "east/0001.png"), 1u);
-  EXPECT_EQ(FindImagePath(paths, "0001.jpg"), std::nullopt);
-  EXPECT_EQ(FindImagePath(paths, "s5.jpg"), 2u);
-  EXPECT_EQ(FindImagePath(paths, "s5"), 2u);
-  EXPECT_EQ(FindImagePath(paths, "s6.jpg"), std::nullopt);
+  const ImagePathFinder finder(paths);
+  EXPECT_EQ(finder.Find("north/0001.jpg"), 0u);
+  EXPECT_EQ(finder.Find("east\\0001.jpg"), 1u);
+  EXPECT_EQ(finder.Find("/home/me/project/images/east/0001.jpg"), 1u);
+  EXPECT_EQ(finder.Find("east/0001.png"), 1u);
+  EXPECT_EQ(finder.Find("0001.jpg"), std::nullopt);
+  EXPECT_EQ(finder.Find("s5.jpg"), 2u);
+  EXPECT_EQ(finder.Find("s5"), 2u);
+  EXPECT_EQ(finder.Find("s6.jpg"), std::nullopt);
 }
 
 Camera SampleCamera(int width, int height) {
