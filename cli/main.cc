@@ -4,10 +4,10 @@
 #include "cli/suggestion.h"
 #include "scene/error.h"
 
-#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 

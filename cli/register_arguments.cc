@@ -188,38 +188,40 @@ void PrintWarnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
     std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
-  void PrintVerdictCounts(const std::vector<Registration>& registrations, size_t num_warnings) {
-    const auto count = [&](Verdict verdict) {
-      return std::count_if(registrations.begin(), registrations.end(), [&](const auto& one) {
-        return one.verdict == verdict;
-      });
-    };
-    const auto num_unreadable = count(Verdict::kUnreadable);
-    const std::string unreadable =
-        num_unreadable > 0 ? ", " + std::to_string(num_unreadable) + " unreadable" : "";
-    std::printf("\n%zu photographs: %td accepted, %td in review, %td rejected%s; %s\n",
-                registrations.size(),
-                count(Verdict::kAccepted),
-                count(Verdict::kReview),
-                count(Verdict::kRejected),
-                unreadable.c_str(),
-                CountWarnings(num_warnings).c_str());
-  }
+}
 
-  void PrintRegistrationsJson(const RegisteredScene& registered,
-                              const std::vector<std::string>& warnings) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::parse(FormatRegistrations(
-        registered.registrations, registered.model_errors, registered.warnings));
-    json["warnings"] = warnings;
-    std::printf("%s\n",
-                json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
-  }
+void PrintVerdictCounts(const std::vector<Registration>& registrations, size_t num_warnings) {
+  const auto count = [&](Verdict verdict) {
+    return std::count_if(registrations.begin(), registrations.end(), [&](const auto& one) {
+      return one.verdict == verdict;
+    });
+  };
+  const auto num_unreadable = count(Verdict::kUnreadable);
+  const std::string unreadable =
+      num_unreadable > 0 ? ", " + std::to_string(num_unreadable) + " unreadable" : "";
+  std::printf("\n%zu photographs: %td accepted, %td in review, %td rejected%s; %s\n",
+              registrations.size(),
+              count(Verdict::kAccepted),
+              count(Verdict::kReview),
+              count(Verdict::kRejected),
+              unreadable.c_str(),
+              CountWarnings(num_warnings).c_str());
+}
 
-  int ExitStatusOf(const std::vector<Registration>& registrations) {
-    for (const Registration& registration : registrations) {
-      if (registration.verdict != Verdict::kAccepted) return kExitNeedsReview;
-    }
-    return kExitDone;
+void PrintRegistrationsJson(const RegisteredScene& registered,
+                            const std::vector<std::string>& warnings) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(
+      FormatRegistrations(registered.registrations, registered.model_errors, registered.warnings));
+  json["warnings"] = warnings;
+  std::printf("%s\n",
+              json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+}
+
+int ExitStatusOf(const std::vector<Registration>& registrations) {
+  for (const Registration& registration : registrations) {
+    if (registration.verdict != Verdict::kAccepted) return kExitNeedsReview;
   }
+  return kExitDone;
+}
 
 }  // namespace groundglass

@@ -74,7 +74,7 @@ ImageSize EnsureStills(const std::vector<Registration>& registrations,
     files.push_back("renders/still_" + std::to_string(still) + ".jpg");
   }
   stages.Begin(kStillsStage, key, files);
-  const TexturedModel model = ReadTexturedModel(out / "model.glb");
+  const TexturedModel model = ReadTexturedModel(out / "model.glb").textured;
   // From where nobody stood: along the flight through the photographs' viewpoints, midway between
   // them. Twice as many frames as stills: every second one, from the first, lies between
   // viewpoints.

@@ -40,7 +40,9 @@ function(groundglass_test room)
   add_executable(${target} ${T_SOURCES})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PRIVATE ${T_NEEDS} GTest::gtest GTest::gmock GTest::gtest_main)
-  # Tests wait for the compiler more than for themselves.
+  # Tests have local helpers of the same names, so each is compiled alone; and they wait for the
+  # compiler more than for themselves.
+  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   target_compile_options(${target} PRIVATE ${GROUNDGLASS_WARNINGS} $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${target} PRIVATE
     GROUNDGLASS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -9,7 +9,7 @@ namespace groundglass {
 namespace {
 
 template <typename Code>
-struct Spot {
+struct GrownTexel {
   int x;
   int y;
   Code colour[3];
@@ -19,11 +19,11 @@ struct Spot {
 // One ring: every texel that `wants` a colour and has neighbours that are `known` gets their mean.
 // Returns the texels that were filled; they become known.
 template <typename Code>
-std::vector<Spot<Code>> GrowRing(const std::vector<std::pair<int, int>>& candidates,
-                                 const Raster<Code>& srgb,
-                                 const Image16& provenance,
-                                 const Raster<uint8_t>& known) {
-  std::vector<Spot<Code>> filled;
+std::vector<GrownTexel<Code>> GrowRing(const std::vector<std::pair<int, int>>& candidates,
+                                       const Raster<Code>& srgb,
+                                       const Image16& provenance,
+                                       const Raster<uint8_t>& known) {
+  std::vector<GrownTexel<Code>> filled;
   for (const auto& [x, y] : candidates) {
     int sum[3] = {0, 0, 0};
     int count = 0;
@@ -37,9 +37,9 @@ std::vector<Spot<Code>> GrowRing(const std::vector<std::pair<int, int>>& candida
       }
     }
     if (count == 0) continue;
-    Spot<Code> spot{x, y, {}, source};
-    for (int c = 0; c < 3; ++c) spot.colour[c] = static_cast<Code>((sum[c] + count / 2) / count);
-    filled.push_back(spot);
+    GrownTexel<Code> texel{x, y, {}, source};
+    for (int c = 0; c < 3; ++c) texel.colour[c] = static_cast<Code>((sum[c] + count / 2) / count);
+    filled.push_back(texel);
   }
   return filled;
 }
@@ -71,17 +71,17 @@ void Grow(Raster<Code>& srgb,
   }
   for (int ring = 1; !frontier.empty(); ++ring) {
     std::erase_if(frontier, [&](const auto& at) { return *wanted.At(at.first, at.second) < ring; });
-    const std::vector<Spot<Code>> filled = GrowRing(frontier, srgb, provenance, known);
-    for (const Spot<Code>& spot : filled) {
-      std::copy(spot.colour, spot.colour + 3, srgb.At(spot.x, spot.y));
-      if (!keep_provenance) *provenance.At(spot.x, spot.y) = spot.provenance;
-      *known.At(spot.x, spot.y) = 1;
-      *wanted.At(spot.x, spot.y) = 0;
-      *queued.At(spot.x, spot.y) = 1;
+    const std::vector<GrownTexel<Code>> filled = GrowRing(frontier, srgb, provenance, known);
+    for (const GrownTexel<Code>& texel : filled) {
+      std::copy(texel.colour, texel.colour + 3, srgb.At(texel.x, texel.y));
+      if (!keep_provenance) *provenance.At(texel.x, texel.y) = texel.provenance;
+      *known.At(texel.x, texel.y) = 1;
+      *wanted.At(texel.x, texel.y) = 0;
+      *queued.At(texel.x, texel.y) = 1;
     }
     frontier.clear();
-    for (const Spot<Code>& spot : filled) {
-      neighbours(spot.x, spot.y, [&](int i, int j) {
+    for (const GrownTexel<Code>& texel : filled) {
+      neighbours(texel.x, texel.y, [&](int i, int j) {
         if (*wanted.At(i, j) == 0 || *queued.At(i, j)) return;
         *queued.At(i, j) = 1;
         frontier.emplace_back(i, j);

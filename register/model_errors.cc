@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #include "register/model_errors.h"
 
-#include "scene/face_number.h"
 #include "scene/check_option.h"
+#include "scene/face_number.h"
 
 #include <algorithm>
 

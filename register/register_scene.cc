@@ -3,9 +3,9 @@
 #include "register/register_scene.h"
 
 #include "register/refine_accepted.h"
-#include "scene/select_photographs.h"
 #include "scene/ignore_mask.h"
 #include "scene/image_io.h"
+#include "scene/select_photographs.h"
 
 #include <tbb/parallel_for.h>
 

@@ -6,8 +6,8 @@
 #include "scene/error.h"
 #include "scene/feature_edges.h"
 #include "scene/image_io.h"
-#include "scene/model_sigma.h"
 #include "scene/image_kind.h"
+#include "scene/model_sigma.h"
 #include "scene/registration_io.h"
 #include "scene/view_io.h"
 #include "scene/visibility.h"
@@ -255,7 +255,8 @@ class Report {
 
   void AddPictures(const Registration& registration) {
     if (registration.verdict == Verdict::kUnreadable) return;
-    const Photograph* photograph = scene_ ? FindUsablePhotograph(*scene_, registration.name) : nullptr;
+    const Photograph* photograph =
+        scene_ ? FindUsablePhotograph(*scene_, registration.name) : nullptr;
     if (photograph) {
       const Image8 picture =
           ShrunkPicture(ReadSrgb8(photograph->image_file), options_.picture_width_px);

@@ -117,7 +117,7 @@ void BM_ScoreAlignment(benchmark::State& state) {
   const Camera camera = CameraFromTag(slide.tag, slide.grey8.width, slide.grey8.height);
   const std::vector<EdgeSample> samples = SampleVisibleEdges(edge_model, camera, -3, 4);
   const ParameterProjection projection(
-      ParametersFromTag(slide.tag), slide.tag.k2, slide.grey8.width, slide.grey8.height);
+      ParametersFromTag(slide.tag), {.k2 = slide.tag.k2}, slide.grey8.width, slide.grey8.height);
   for (auto _ : state) {
     benchmark::DoNotOptimize(ScoreAlignment(samples, projection, evidence, {}));
   }

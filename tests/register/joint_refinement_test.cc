@@ -178,7 +178,7 @@ TEST(RefineAccepted, TheScoreIsThatOfTheCameraThatIsWritten) {
         PhotographModel(built, CameraFromTag(TrueTags()[i], kWidth, kHeight), 2, i + 1), {});
     const AlignmentScore score = ScoreAlignment(
         SampleVisibleEdges(edge_model, registration.CorrectedCamera(), -3, 4),
-        ParameterProjection(ParametersFromTag(registration.corrected), 0, kWidth, kHeight),
+        ParameterProjection(ParametersFromTag(registration.corrected), {}, kWidth, kHeight),
         evidence,
         {});
     EXPECT_NE(registration.score_nats, alone[i]);

@@ -127,7 +127,7 @@ TEST(ModelTolerance, ALargerSigmaMakesEveryCameraLessCertain) {
 TEST(ModelTolerance, ALooseModelMayLieOffAsAWholeEdgeAndStillScores) {
   // One upright edge of 80 px, seen 6 px beside where the camera has it.
   const ParameterProjection projection(
-      ParametersFromTag(TagAt({0, 100, 0}, {0, 0, 0})), 0, kWidth, kHeight);
+      ParametersFromTag(TagAt({0, 100, 0}, {0, 0, 0})), {}, kWidth, kHeight);
   std::vector<ScoreSample> samples;
   for (int i = 0; i < 20; ++i) {
     ScoreSample sample;

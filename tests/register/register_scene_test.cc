@@ -126,7 +126,7 @@ TEST(RegisterScene, WithoutACommonSolutionEachKeepsItsOwn) {
   options.independent = true;
   const RegisteredScene alone = RegisterScene(scene, {}, options, {});
   options.independent = false;
-  options.joint.common_offset_m = 1e200;  // its square is beyond all numbers
+  options.joint.common_offset_sigmas = 1e200;  // its square is beyond all numbers
   const RegisteredScene together = RegisterScene(scene, {}, options, {});
   EXPECT_EQ(FormatRegistrations(together.registrations), FormatRegistrations(alone.registrations));
   ASSERT_EQ(together.warnings.size(), 1u);

@@ -92,10 +92,11 @@ TEST(SigmaComment, SurvivesEveryFormatThatIsWritten) {
   WriteGlb(folder / "b.glb", textured);
   EXPECT_EQ(ReadModel(folder / "b.glb").model.sigma, 0.0123);
   // Another unit, the same length.
-  EXPECT_NEAR(
-      *ReadModel(folder / "b.glb", {.unit = LengthUnit::kMillimetre}).model.sigma, 12.3, 1e-9);
+  ModelOptions in_mm;
+  in_mm.unit = LengthUnit::kMillimetre;
+  EXPECT_NEAR(*ReadModel(folder / "b.glb", in_mm).model.sigma, 12.3, 1e-9);
   WriteTexturedObj(folder / "c.obj", textured);
-  EXPECT_EQ(ReadTexturedModel(folder / "c.obj").model.sigma, 0.0123);
+  EXPECT_EQ(ReadTexturedModel(folder / "c.obj").textured.model.sigma, 0.0123);
 }
 
 TEST(SigmaComment, OfAnObjIsCheckedToo) {
