@@ -367,7 +367,8 @@ JointRefinement JointSolver::Result() {
   for (const MovingPhotograph& moving : moving_) {
     const Eigen::Index own = equations.ColumnOf(moving.own.data());
     const Eigen::Index lens = equations.ColumnOf(lenses_[moving.lens].data());
-    Eigen::Matrix<double, kNumParts, 1> parts;
+    // Of sizes known at run time only: products of each fixed size take the compiler seconds.
+    Eigen::VectorXd parts(kNumParts);
     parts << moving.own, lenses_[moving.lens];
     const auto rows_of_parts = [&](const Eigen::MatrixXd& columns) {
       Eigen::MatrixXd rows(kNumParts, columns.cols());
@@ -375,14 +376,14 @@ JointRefinement JointSolver::Result() {
           columns.middleRows<kNumLensParameters>(lens);
       return rows;
     };
-    Eigen::Matrix<double, kNumParts, kNumParts> covariance;
+    Eigen::MatrixXd covariance(kNumParts, kNumParts);
     covariance << rows_of_parts(equations.CovarianceColumns(own, kNumCameraParameters)),
         rows_of_parts(equations.CovarianceColumns(lens, kNumLensParameters));
     const Eigen::MatrixXd shared = rows_of_parts(by_shared);
     const Eigen::MatrixXd family = rows_of_parts(by_family);
     covariance += shared * shared.transpose() + family * family.transpose();
 
-    const auto& whole = moving.prior.whole_from_parts;
+    const Eigen::MatrixXd whole = moving.prior.whole_from_parts;
     joint.photographs.push_back({whole * parts,
                                  whole * covariance * whole.transpose(),
                                  moving.num_matched,
