@@ -117,9 +117,15 @@ void OpenImage::ChoosePage() {
       kind_.reader != "webp") {
     return;  // theirs are frames and layers, of which the first stands for all
   }
+  if (kind_.reader == "gif" || kind_.reader == "webp") {
+    // Their readers lose their place when they are asked for pages that are not there.
+    if (spec_.get_int_attribute("oiio:Movie") != 0) {
+      warnings_.push_back("is an animation; its first picture is taken");
+    }
+    return;
+  }
   std::vector<OIIO::ImageSpec> pages = {spec_};
-  const bool has_pages = kind_.reader == "tiff" || kind_.reader == "ico";
-  while (static_cast<int>(pages.size()) < (has_pages ? kMostPages : 2) &&
+  while (static_cast<int>(pages.size()) < kMostPages &&
          input_->seek_subimage(static_cast<int>(pages.size()), 0)) {
     pages.push_back(input_->spec());
   }
@@ -127,18 +133,14 @@ void OpenImage::ChoosePage() {
   const auto is_smaller = [](const OIIO::ImageSpec& a, const OIIO::ImageSpec& b) {
     return NumPixels(a) < NumPixels(b);
   };
-  if (has_pages) {
-    const auto largest = std::max_element(pages.begin(), pages.end(), is_smaller);
-    page_ = static_cast<int>(largest - pages.begin());
-    const auto num_largest = std::count_if(
-        pages.begin(), pages.end(), [&](const auto& page) { return !is_smaller(page, *largest); });
-    if (page_ > 0 || num_largest > 1) {
-      warnings_.push_back("has " + std::to_string(pages.size()) + " pages; page " +
-                          std::to_string(page_ + 1) + " of " + SizeOf(*largest) + " pixels, the " +
-                          (num_largest > 1 ? "first of the " : "") + "largest, is taken");
-    }
-  } else if (pages.size() > 1) {
-    warnings_.push_back("is an animation; its first picture is taken");
+  const auto largest = std::max_element(pages.begin(), pages.end(), is_smaller);
+  page_ = static_cast<int>(largest - pages.begin());
+  const auto num_largest = std::count_if(
+      pages.begin(), pages.end(), [&](const auto& page) { return !is_smaller(page, *largest); });
+  if (page_ > 0 || num_largest > 1) {
+    warnings_.push_back("has " + std::to_string(pages.size()) + " pages; page " +
+                        std::to_string(page_ + 1) + " of " + SizeOf(*largest) + " pixels, the " +
+                        (num_largest > 1 ? "first of the " : "") + "largest, is taken");
   }
   if (!input_->seek_subimage(page_, 0)) {
     throw Error(file_, "this image is damaged: " + Reason(input_->geterror(), file_));

@@ -370,13 +370,17 @@ class SceneReader {
       if (place.extension() == ".view") photograph.view_file = place;
       if (found != tags_.end()) photograph.tag = found->second.tag;
       try {
-        const ImageInspection inspection = InspectImage(image->second);
-        photograph.size = inspection.size;
-        result_.scene.warnings.insert(
-            result_.scene.warnings.end(), inspection.warnings.begin(), inspection.warnings.end());
+        photograph.size = ReadImageSize(image->second);
       } catch (const Error& error) {
         FaultOf(name, error.what());
         not_images_.insert(image->second);
+      }
+      try {
+        const std::vector<std::string> warnings = InspectImage(image->second).warnings;
+        result_.scene.warnings.insert(
+            result_.scene.warnings.end(), warnings.begin(), warnings.end());
+      } catch (const Error&) {
+        // Reading its pixels says the same.
       }
       result_.scene.photographs.push_back(std::move(photograph));
     }

@@ -346,7 +346,7 @@ TEST(BakeTextures, UnfitInputIsNamed) {
   photograph.mask_file = folder.path() / "mask.png";
   WriteLabels(*photograph.mask_file, Image16(32, 48, 1));
   EXPECT_THAT(ThrownMessage([&] { BakeTextures(model, std::vector{photograph}); }),
-              testing::HasSubstr("mask.png: is 32x48 px, but its camera is for 64x48"));
+              testing::HasSubstr("mask.png: mask has 32 x 48 pixels, its photograph 64 x 48"));
   photograph.mask_file.reset();
   photograph.faces_file = folder.path() / "faces.png";
   WriteLabels(*photograph.faces_file, Image16(64, 48, 1, 7));

@@ -63,6 +63,8 @@ TEST(EdgeCoarseness, ACornerIsMeantAsItIsDrawn) {
 TEST(EdgeCoarseness, ScalesWithTheUnit) {
   PolygonModel model = TwoWalls(60);
   model.unit = LengthUnit::kFoot;
+  // As good as a building's; by default it would be a smaller thing's, being a third as large.
+  model.sigma = 0.03 / 0.3048;
   EXPECT_NEAR(CoarsenessOfCreaseAndGround(model).second, 0.07 / 0.3048, 1e-9);
 }
 

@@ -108,7 +108,7 @@ TEST(RegisterScene, WhatCannotBeReadIsAVerdictAndNotTheEnd) {
   const std::vector<Registration> found = RegisterScene(scene, {}, options, {}).registrations;
   ASSERT_EQ(found.size(), 4u);
   EXPECT_EQ(found[0].verdict, Verdict::kUnreadable);
-  EXPECT_NE(found[0].reasons.at(0).find("mask is 30x20, but its photograph is 1200x800"),
+  EXPECT_NE(found[0].reasons.at(0).find("mask has 30 x 20 pixels, its photograph 1200 x 800"),
             std::string::npos);
   EXPECT_EQ(found[1].verdict, Verdict::kUnreadable);
   EXPECT_NE(found[1].reasons.at(0).find("s2.jpg"), std::string::npos);

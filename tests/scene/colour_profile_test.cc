@@ -178,7 +178,10 @@ Bytes PressProfile() {
   cmsPipeline* pipeline = cmsPipelineAlloc(nullptr, 4, 3);
   cmsStage* table = cmsStageAllocCLut16bit(nullptr, 11, 4, 3, nullptr);
   EXPECT_TRUE(cmsStageSampleCLut16bit(table, Sampler::Sample, to_lab, 0));
+  // A table stands between curves, if only straight ones.
   cmsPipelineInsertStage(pipeline, cmsAT_BEGIN, table);
+  cmsPipelineInsertStage(pipeline, cmsAT_BEGIN, cmsStageAllocToneCurves(nullptr, 4, nullptr));
+  cmsPipelineInsertStage(pipeline, cmsAT_END, cmsStageAllocToneCurves(nullptr, 3, nullptr));
   EXPECT_TRUE(cmsWriteTag(profile, cmsSigAToB0Tag, pipeline));
   cmsPipelineFree(pipeline);
   cmsDeleteTransform(to_lab);

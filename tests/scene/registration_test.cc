@@ -201,7 +201,7 @@ TEST(RegistrationFile, BadOnesGiveOneLine) {
   EXPECT_THAT(message("[]"), HasSubstr("r.json: not a registration file"));
   EXPECT_THAT(message("{\"photographs\": [{\"name\": \"s5\"}]}"), HasSubstr("verdict"));
   EXPECT_THAT(message("{\"photographs\": [{\"name\": \"s5\", \"verdict\": \"fine\"}]}"),
-              HasSubstr("verdict 'fine' is not accepted, review or rejected"));
+              HasSubstr("verdict 'fine' is not accepted, review, rejected or unreadable"));
 }
 
 }  // namespace

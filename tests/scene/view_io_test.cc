@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadView{"pan 3",
                 "views/s5.view:12: unknown key 'pan'; the keys are x y z i j k a v roll shift_x "
-                "shift_y k1 k2 sigma_... camera"},
+                "shift_y k1 k2 k3 p1 p2 sigma_... camera"},
         BadView{"x 3", "views/s5.view:12: key 'x' is repeated; it stands on line 4 already"},
         BadView{"=x 1 y 2 z 3 i 4 j 5 k 6 a 1.5", "views/s5.view: key 'v' is missing"},
         BadView{"=", "views/s5.view: key 'x' is missing"},
