@@ -200,11 +200,6 @@ int RunInvrender(const InvrenderArguments& arguments) {
   stages.Write();
   const BakeResult result =
       BakeAndWrite(scene, photographs, arguments.bake, options, arguments.common, out, key, stages);
-  if (result.coverage.CoveredShare() == 0) {
-    throw Error("none of the " + std::to_string(photographs.size()) +
-                " photographs shows the front of a face that is to be textured, so nothing is; "
-                "groundglass check SCENE -o DIR draws what the scene's own tags see");
-  }
   EnsureTiles(
       scene, photographs, arguments.bake, out, StageKey(kTilesStage, key, tiles_inputs), stages);
   PrintSummary(result, photographs.size(), unreadable, arguments.common.json);

@@ -76,7 +76,9 @@ std::string DescribeUsageError(const CLI::App& app, const CLI::ParseError& error
   const std::string where = WholeName(command) + ": ";
   std::string message;
   const std::vector<std::string> extras = command.remaining();
-  if (error.get_name() == "ExtrasError" && !extras.empty()) {
+  // Its name is the command's in this version of the library.
+  const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  if (is_extra && !extras.empty()) {
     const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
       return word.size() > 1 && word.front() == '-';
     });

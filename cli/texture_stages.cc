@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "cli/texture_stages.h"
 
+#include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/textured_model_io.h"
 #include "viewer/camera_path.h"
@@ -29,6 +30,11 @@ BakeResult BakeAndWrite(const Scene& scene,
   with_masks.on_face_mask = FaceMaskWriter(out);
   BakeResult bake =
       BakeTextures(scene.model, photographs, with_masks, MakeProgress(common, "texturing"));
+  if (bake.coverage.CoveredShare() == 0) {
+    throw Error("none of the " + std::to_string(photographs.size()) +
+                " photographs shows the front of a face that is to be textured, so nothing is; "
+                "groundglass check SCENE -o DIR draws what the scene's own tags see");
+  }
   std::vector<std::string> files = BakeFiles(bake, page_extension);
   files.insert(files.end(), masks.begin(), masks.end());
   stages.Begin(kTextureStage, key, files);

@@ -66,7 +66,7 @@ std::string UnitSuffix(const Scene* scene) {
 
 // A misfit that there may not be.
 std::string PixelsOf(const std::optional<double>& px) {
-  return px ? FormatNumber(*px, 0.1) : "\u2013";
+  return px ? FormatRounded(*px, 0.1) : "\u2013";
 }
 
 std::string VerdictCell(Verdict verdict) {
@@ -214,15 +214,16 @@ class Report {
         remarks += EscapeHtml(reason);
       }
       const bool is_corrected = HasCorrection(registration.verdict);
-      body_ += "<tr>" +
-               TextCell("<a href=\"#" + EscapeHtml(registration.name) + "\">" +
-                        EscapeHtml(registration.name) + "</a>") +
-               TextCell(VerdictCell(registration.verdict)) +
-               NumberCell(is_corrected ? FormatNumber(registration.moved_px, 1) : "\u2013") +
-               NumberCell(PixelsOf(registration.rms_px)) +
-               NumberCell(PixelsOf(registration.robust_sigma_px)) +
-               NumberCell(is_corrected ? FormatNumber(registration.vertex_sigma_px, 1) : "\u2013") +
-               NumberCell(std::to_string(registration.num_samples)) + TextCell(remarks) + "</tr>\n";
+      body_ +=
+          "<tr>" +
+          TextCell("<a href=\"#" + EscapeHtml(registration.name) + "\">" +
+                   EscapeHtml(registration.name) + "</a>") +
+          TextCell(VerdictCell(registration.verdict)) +
+          NumberCell(is_corrected ? FormatRounded(registration.moved_px, 1) : "\u2013") +
+          NumberCell(PixelsOf(registration.rms_px)) +
+          NumberCell(PixelsOf(registration.robust_sigma_px)) +
+          NumberCell(is_corrected ? FormatRounded(registration.vertex_sigma_px, 1) : "\u2013") +
+          NumberCell(std::to_string(registration.num_samples)) + TextCell(remarks) + "</tr>\n";
     }
     body_ += "</tbody></table>\n";
   }
@@ -315,11 +316,11 @@ class Report {
           *kParameterWords[i].unit ? std::string(kParameterWords[i].unit) : UnitSuffix(scene_);
       const double prior = registration.prior_sigmas[i];
       body_ += "<tr>" + TextCell(kParameterWords[i].name) +
-               NumberCell(FormatNumber(measured[i], sigma) + unit) +
-               NumberCell(FormatNumber(measured[i] + moved, sigma) + unit) +
+               NumberCell(FormatRounded(measured[i], sigma) + unit) +
+               NumberCell(FormatRounded(measured[i] + moved, sigma) + unit) +
                NumberCell(sigma > 0 ? FormatSigma(sigma) + unit : "\u2013") +
-               NumberCell(FormatNumber(moved, sigma) + unit) +
-               NumberCell(prior > 0 ? FormatNumber(std::abs(moved) / prior, 1) : "\u2013") +
+               NumberCell(FormatRounded(moved, sigma) + unit) +
+               NumberCell(prior > 0 ? FormatRounded(std::abs(moved) / prior, 1) : "\u2013") +
                TextCell(is_undetermined ? "<span class=\"soft\">no better known than before</span>"
                                         : "") +
                "</tr>\n";

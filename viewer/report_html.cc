@@ -53,7 +53,7 @@ std::string EscapeHtml(const std::string& text) {
   return safe;
 }
 
-std::string FormatNumber(double value, double sigma) {
+std::string FormatRounded(double value, double sigma) {
   return FormatDecimals(value, sigma > 0 ? DecimalsFor(sigma, 2) : DecimalsFor(value, 4));
 }
 

@@ -13,7 +13,7 @@ std::string EscapeHtml(const std::string& text);
 
 // A number as people write it: as many decimals as its standard deviation gives sense to (two
 // digits of the deviation), four significant digits if that is not known (0). True minus sign.
-std::string FormatNumber(double value, double sigma = 0);
+std::string FormatRounded(double value, double sigma = 0);
 // The deviation itself, to two digits.
 std::string FormatSigma(double sigma);
 // "87 %"; "< 1 %" and "> 99 %" rather than a false 0 or 100.

@@ -48,7 +48,7 @@ std::string FormatStandpoint(const Json& face) {
   const auto at = missing.value("stand_at", std::vector<double>());
   std::string text;
   for (const double coordinate : at) {
-    text += (text.empty() ? "" : ", ") + FormatNumber(coordinate, 10);
+    text += (text.empty() ? "" : ", ") + FormatRounded(coordinate, 10);
   }
   return text.empty() ? "\u2013" : text;
 }
@@ -59,7 +59,7 @@ std::string FormatFaceRow(const Json& face, bool with_standpoint) {
   return std::string("<tr") + (share < kWellCovered ? " class=\"missing\"" : "") + ">" +
          NumberCell(std::to_string(face.value("face", 0))) +
          TextCell(EscapeHtml(face.value("name", ""))) +
-         NumberCell(FormatNumber(face.value("area", 0.0), 1)) + NumberCell(FormatShare(share)) +
+         NumberCell(FormatRounded(face.value("area", 0.0), 1)) + NumberCell(FormatShare(share)) +
          TextCell("<span class=\"bar\"><i style=\"width:" + std::to_string(percent) +
                   "%\"></i></span>") +
          NumberCell(face.value("covered_texels", 0.0) > 0
@@ -83,7 +83,7 @@ std::string FormatFaceTable(const std::vector<Json>& faces,
 
 // One length with its sign, to the digits that its standard deviation gives sense to.
 std::string FormatOffset(double offset, double sigma) {
-  return (offset < 0 ? "" : "+") + FormatNumber(offset, sigma);
+  return (offset < 0 ? "" : "+") + FormatRounded(offset, sigma);
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ ProgramRun RunJob(const fs::path& scene,
 
 json VerdictsOf(const fs::path& out) {
   json verdicts;
-  for (const json& photograph : json::parse(ReadAll(out / "registration.json"))["photographs"]) {
+  const json registration = json::parse(ReadAll(out / "registration.json"));
+  for (const json& photograph : registration.at("photographs")) {
     verdicts[photograph["name"].get<std::string>()] = photograph["verdict"];
   }
   return verdicts;

@@ -29,11 +29,11 @@ TEST(ReportHtml, Base64IsThatOfRfc4648) {
 }
 
 TEST(ReportHtml, NumbersHaveTheDecimalsThatTheirDeviationGivesSenseTo) {
-  EXPECT_EQ(FormatNumber(231.4187301, 0.0312), "231.419");
-  EXPECT_EQ(FormatNumber(-2.5, 0.4), "\u22122.50");
-  EXPECT_EQ(FormatNumber(1504.3, 120), "1504");
-  EXPECT_EQ(FormatNumber(3.14159265), "3.142");
-  EXPECT_EQ(FormatNumber(-0.0001, 0.1), "0.00");  // no minus before nothing
+  EXPECT_EQ(FormatRounded(231.4187301, 0.0312), "231.419");
+  EXPECT_EQ(FormatRounded(-2.5, 0.4), "\u22122.50");
+  EXPECT_EQ(FormatRounded(1504.3, 120), "1504");
+  EXPECT_EQ(FormatRounded(3.14159265), "3.142");
+  EXPECT_EQ(FormatRounded(-0.0001, 0.1), "0.00");  // no minus before nothing
   EXPECT_EQ(FormatSigma(0.0312), "0.031");
 }
 
