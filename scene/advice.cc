@@ -66,11 +66,9 @@ std::vector<Advice> FindOddities(const Scene& scene,
   }
   const Misreading misreading = AdviseOnReading(context);
   AdviseOnModel(context, misreading);
-  const bool is_misread = misreading != Misreading::kNone;
-  if (!is_misread) {
-    AdviseOnBacks(context);
-    AdviseOnTags(context);
-  }
+  // One cause, one advice: what a model that was misread does to its tags and pictures is no news.
+  const bool is_misread = misreading != Misreading::kNone || AdviseOnBacks(context, with_pictures);
+  if (!is_misread) AdviseOnTags(context);
   AdviseOnFrames(context);
   if (!is_misread && with_pictures) AdviseOnPictures(context);
   return found;

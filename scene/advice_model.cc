@@ -58,11 +58,12 @@ bool IsGltf(const AdviceContext& context) {
   return extension == ".glb" || extension == ".gltf";
 }
 
-void AdviseOnSize(const AdviceContext& context) {
+// `with_eyes`: the cameras' heights above the model's foot mean something.
+void AdviseOnSize(const AdviceContext& context, bool with_eyes) {
   const PolygonModel& model = context.scene.model;
   const double metres = MetresPerUnit(model.unit);
   const double diagonal = context.bounds.Diagonal();
-  const std::optional<double> eye_height = MedianEyeHeight(context);
+  const std::optional<double> eye_height = with_eyes ? MedianEyeHeight(context) : std::nullopt;
   const bool is_large = diagonal * metres > kLargestModel_m;
   const bool is_small = diagonal * metres < kSmallestModel_m;
   const bool has_odd_eyes = eye_height && (*eye_height * metres < 0.6 || *eye_height * metres > 8);
@@ -147,7 +148,7 @@ void AdviseOnRaster(const AdviceContext& context) {
 }  // namespace
 
 void AdviseOnModel(const AdviceContext& context, Misreading misreading) {
-  if (misreading != Misreading::kOfUnit) AdviseOnSize(context);
+  if (misreading != Misreading::kOfUnit) AdviseOnSize(context, misreading == Misreading::kNone);
   AdviseOnRaster(context);
 }
 

@@ -5,6 +5,7 @@
 #include "scene/advice.h"
 #include "scene/standpoint.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,13 +46,17 @@ enum class Misreading { kNone, kOfUnit, kOther };
 Misreading AdviseOnReading(const AdviceContext& context);
 // The model by itself: its size and unit (unless that is told already), its coordinates' steps.
 void AdviseOnModel(const AdviceContext& context, Misreading misreading);
-// Faces that show their backs.
-void AdviseOnBacks(const AdviceContext& context);
+// Faces that show their backs: they run clockwise, or the model is mirrored about a line that its
+// tags suit as well, which the pictures tell if they are looked at. True if that is so.
+bool AdviseOnBacks(const AdviceContext& context, bool with_pictures);
 // Each tag by itself.
 void AdviseOnTags(const AdviceContext& context);
 // Shape and turn of the pictures against their tags.
 void AdviseOnFrames(const AdviceContext& context);
 // What the pictures show: turned by 180 degrees, mirrored, the view angle of the other side.
 void AdviseOnPictures(const AdviceContext& context);
+// Whether the pictures' edges lie on a model that shows its backs as `mirrored` has it, or as it
+// was read. None if they suit either.
+std::optional<bool> FindWhetherMirrored(const AdviceContext& context, const OtherReading& mirrored);
 
 }  // namespace groundglass

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 namespace groundglass {
 namespace {
@@ -25,6 +26,7 @@ struct Reading {
   std::function<ViewTag(const ViewTag&)> retag;  // none: as they are
   std::string message;
   std::string remedy;
+  std::string option;  // where one is all that it takes
   int num_changes = 1;
 };
 
@@ -106,11 +108,12 @@ std::vector<Reading> OtherAxes(const AdviceContext& context) {
     reading.model.linear = WorldFromAxes(words.axes) * world_from_read;
     reading.model.flips_faces = reading.model.linear.determinant() < 0;
     reading.message = words.message;
-    reading.remedy = std::string("give ") + words.option;
+    reading.option = words.option;
     if (axes == MeshAxes::kSite && words.axes == MeshAxes::kWorld) {
       reading.message = "its y axis counts north, so that it was read mirrored";
-      reading.remedy = "give --frame world";
+      reading.option = "--frame world";
     }
+    reading.remedy = "give " + reading.option;
   }
   return readings;
 }
@@ -230,6 +233,24 @@ bool IsMirrored(const Suitability& as_read, const Suitability& other, const Read
          other.median_lookat_error < 0.4 * as_read.median_lookat_error;
 }
 
+// Axes that mirror the model, if the tags suit them as well: faces that show their backs may then
+// come of either. Where one of the two suits far better, that is what is meant.
+std::optional<Reading> MirroredReading(const AdviceContext& context) {
+  if (context.scene.photographs.size() < kFewestTags) return std::nullopt;
+  const std::vector<const Photograph*> photographs = SomePhotographs(context.scene);
+  const Suitability as_read = Try(context, photographs, {});
+  for (const Reading& reading : OtherAxes(context)) {
+    if (!reading.model.flips_faces) continue;
+    const Suitability suits = Try(context, photographs, reading);
+    const bool is_possible = suits.plausible_share >= 0.7 && suits.median_lookat_error <= 0.12 &&
+                             suits.front_share > 0.65;
+    const bool is_worse = suits.median_lookat_error > 0.05 &&
+                          as_read.median_lookat_error < 0.4 * suits.median_lookat_error;
+    if (is_possible && !is_worse) return reading;
+  }
+  return std::nullopt;
+}
+
 void AdviseOnWhatIsUnknown(const AdviceContext& context, size_t num_implausible) {
   std::vector<double> distances;
   for (const Standpoint& standpoint : context.standpoints) distances.push_back(standpoint.distance);
@@ -305,20 +326,40 @@ Misreading AdviseOnReading(const AdviceContext& context) {
   return Misreading::kOther;
 }
 
-void AdviseOnBacks(const AdviceContext& context) {
+bool AdviseOnBacks(const AdviceContext& context, bool with_pictures) {
   double model_share = 0;
   double back_share = 0;
   for (const Standpoint& standpoint : context.standpoints) {
     model_share += standpoint.model_share;
     back_share += standpoint.model_share * (1 - standpoint.front_share);
   }
-  if (model_share == 0 || back_share < 0.5 * model_share) return;
-  context.Add(Advice::Severity::kScene,
-              context.scene.model_file.string(),
-              std::to_string(std::lround(100 * back_share / model_share)) +
-                  " % of what the photographs show of the model are backs of faces, which take no "
-                  "texture: their points run clockwise",
-              "give --flip-faces, or turn them where the model was made");
+  if (model_share == 0 || back_share < 0.5 * model_share) return false;
+  const std::string shown = std::to_string(std::lround(100 * back_share / model_share)) +
+                            " % of what the photographs show of the model are backs of faces, "
+                            "which take no texture: ";
+  const std::string clockwise = "their points run clockwise";
+  const std::optional<Reading> mirrored = MirroredReading(context);
+  std::optional<bool> is_mirrored;
+  if (!mirrored) {
+    is_mirrored = false;
+  } else if (with_pictures) {
+    is_mirrored = FindWhetherMirrored(context, mirrored->model);
+  }
+  std::string why;
+  std::string remedy;
+  if (!is_mirrored) {
+    why = clockwise + ", or " + mirrored->message + "; the tags suit either";
+    remedy = "look at the overlays (groundglass check SCENE -o DIR) with --flip-faces and with " +
+             mirrored->option + ", and give the one with which they fit";
+  } else if (*is_mirrored) {
+    why = mirrored->message + ", as the pictures' edges tell";
+    remedy = mirrored->remedy;
+  } else {
+    why = clockwise;
+    remedy = "give --flip-faces, or turn them where the model was made";
+  }
+  context.Add(Advice::Severity::kScene, context.scene.model_file.string(), shown + why, remedy);
+  return true;
 }
 
 }  // namespace groundglass

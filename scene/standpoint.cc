@@ -86,6 +86,7 @@ double DistanceToTriangle(const Eigen::Vector3d& point,
 void LookUpSurface(const PolygonModel& model,
                    const Eigen::Vector3d& position,
                    const Eigen::Vector3d& lookat,
+                   bool is_hidden,
                    bool flips_faces,
                    Standpoint& standpoint) {
   // Hand-written points lie this far off what they are on.
@@ -110,7 +111,7 @@ void LookUpSurface(const PolygonModel& model,
     const double before = plane.normal_in_world.dot(position) - plane.offset;
     if ((flips_faces ? -before : before) < -kNear * distance) ++num_backs;
   }
-  standpoint.looks_at_back = num_near > 0 && num_backs == num_near;
+  standpoint.looks_at_back = is_hidden && num_near > 0 && num_backs == num_near;
 }
 
 std::string BearingName(const Eigen::Vector3d& offset_in_world) {
@@ -164,7 +165,9 @@ Standpoint FindStandpoint(const Box& bounds,
 
   standpoint.size_share = lookat_distance / std::max(1e-12, bounds.Diagonal());
   if (has_lookat && standpoint.lookat_error > 0.05) {
-    LookUpSurface(model, position, lookat, reading.flips_faces, standpoint);
+    // A point above a roof's rim is near faces that are seen from behind, and in plain sight.
+    const bool is_hidden = axis && axis->distance < lookat_distance;
+    LookUpSurface(model, position, lookat, is_hidden, reading.flips_faces, standpoint);
   }
 
   int num_model = 0;

@@ -33,8 +33,8 @@ struct Standpoint {
   // 1: it misses, or meets it far from there.
   double lookat_error = 0;
   // The look-at point's distance from the model's surface, as a share of the distance looked at;
-  // and whether the faces that it lies on all turn their backs to the camera. Only where the axis
-  // does not meet the model near that point.
+  // and whether the model hides it and the faces that it lies on all turn their backs to the
+  // camera. Only where the axis does not meet the model near that point.
   double lookat_gap = 0;
   bool looks_at_back = false;
   // The model's extent in the frame: the angle that it takes, as a share of the view angle.
