@@ -336,6 +336,10 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
   if (result.rms_px > kGoodRmsPx) {
     const std::string text = seen();
     if (!text.empty()) result.remarks.push_back(text);
+    const std::string as_given =
+        " --columns " + std::to_string(board.columns) + " --rows " + std::to_string(board.rows);
+    result.shows_other_board =
+        text.find(" --columns ") != std::string::npos && text.find(as_given) == std::string::npos;
   }
   return result;
 }

@@ -87,6 +87,8 @@ struct BoardResult {
   std::string layout;
   // What would make the lens better known; one line each, for a person.
   std::vector<std::string> remarks;
+  // The corners miss the board, and the pictures show another one, which the last remark describes.
+  bool shows_other_board = false;
 };
 
 // Reads Kalibr's target file (target_type: aprilgrid, tagCols, tagRows, tagSize, tagSpacing), whose

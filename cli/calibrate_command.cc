@@ -115,6 +115,9 @@ int CalibrateFromPhotographs(const BoardArguments& arguments) {
   const Board board =
       arguments.target_file ? ReadKalibrTarget(*arguments.target_file) : arguments.board;
   BoardResult result = CalibrateBoard(photographs, board, arguments.options);
+  if (result.shows_other_board) {
+    throw Error("calibrate board: " + result.remarks.back() + "; no lens is written");
+  }
   result.lens.name = arguments.camera;
   WriteFileAtomically(arguments.lens_file, FormatLens(result.lens));
   if (arguments.common.json) {

@@ -209,10 +209,12 @@ void PrintVerdictCounts(const std::vector<Registration>& registrations, size_t n
 }
 
 void PrintRegistrationsJson(const RegisteredScene& registered,
-                            const std::vector<std::string>& warnings) {
+                            const std::vector<std::string>& warnings,
+                            const std::vector<std::string>& failures) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(
       FormatRegistrations(registered.registrations, registered.model_errors, registered.warnings));
   json["warnings"] = warnings;
+  if (!failures.empty()) json["failures"] = failures;
   std::printf("%s\n",
               json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }

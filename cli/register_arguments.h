@@ -41,9 +41,10 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
 void PrintRegistrations(const std::vector<Registration>& registrations);
 // How many have which verdict, and how many warnings there are.
 void PrintVerdictCounts(const std::vector<Registration>& registrations, size_t num_warnings);
-// registration.json as it is written, with the warnings.
+// registration.json as it is written, with the warnings, and what could not be finished.
 void PrintRegistrationsJson(const RegisteredScene& registered,
-                            const std::vector<std::string>& warnings);
+                            const std::vector<std::string>& warnings,
+                            const std::vector<std::string>& failures = {});
 // The lines of the model that are off, if any, in `site`.
 void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit unit);
 

@@ -52,14 +52,14 @@ class Attempts {
     try {
       work();
     } catch (const std::exception& error) {
-      std::fprintf(stderr, "groundglass: %s: %s\n", stage, error.what());
-      has_failed_ = true;
+      failures_.push_back(std::string(stage) + ": " + error.what());
+      std::fprintf(stderr, "groundglass: %s\n", failures_.back().c_str());
     }
   }
-  bool HaveFailed() const { return has_failed_; }
+  const std::vector<std::string>& failures() const { return failures_; }
 
  private:
-  bool has_failed_ = false;
+  std::vector<std::string> failures_;
 };
 
 // Faces, masks and pairs that are wrong are told before the work begins.
@@ -73,6 +73,11 @@ void CheckNarrowing(const RunArguments& arguments, const Scene& scene) {
     bake.camera.height_px = photograph.size.height;
   }
   NarrowPhotographs(arguments.baking, scene, photographs);
+  if (photographs.empty()) {
+    throw Error(
+        "option --exclude: it leaves no photograph for the texture; register corrects tags "
+        "alone");
+  }
 }
 
 // Keeps what earlier runs left for the same keys, removes what they left for others.
@@ -163,7 +168,8 @@ int Run(const RunArguments& arguments) {
   ImageSize stills_size;
   if (photographs.empty()) {
     std::fprintf(stderr,
-                 "groundglass: no photograph could be registered, so nothing is textured\n");
+                 "groundglass: no photograph is left to texture with: none of those that are not "
+                 "excluded could be registered\n");
   } else if (is_narrowed) {
     attempts.Try("texture", [&] {
       if (stages.IsComplete(kTextureStage, keys.texture)) return;
@@ -188,14 +194,17 @@ int Run(const RunArguments& arguments) {
   });
 
   if (common.json) {
-    PrintRegistrationsJson(registered, scene.warnings);
+    PrintRegistrationsJson(registered, scene.warnings, attempts.failures());
   } else {
     PrintVerdictCounts(registrations, scene.warnings.size());
     PrintPlaces(out, stills_size);
+    for (const std::string& failure : attempts.failures()) {
+      std::printf("NOT FINISHED     %s\n", failure.c_str());
+    }
   }
   PrintWarnings(registered.warnings);
   PrintWarnings(mask_faults);
-  if (attempts.HaveFailed()) return kExitWrongInput;
+  if (!attempts.failures().empty()) return kExitWrongInput;
   return mask_faults.empty() ? ExitStatusOf(registrations) : kExitNeedsReview;
 }
 

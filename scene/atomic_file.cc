@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <regex>
 #include <system_error>
 #include <utility>
 
@@ -97,6 +98,11 @@ void WriteBesideAndRename(const fs::path& file, const Write& write) {
 }
 
 }  // namespace
+
+bool IsTemporaryName(const fs::path& file) {
+  static const std::regex pattern(R"(\..*\.part[0-9]+-[0-9]+(\.[^.]*)?)");
+  return std::regex_match(file.filename().string(), pattern);
+}
 
 void WriteFileAtomically(const fs::path& file, std::string_view bytes) {
   StreamFileAtomically(file, [&](const ByteSink& append) { append(bytes); });

@@ -30,4 +30,7 @@ void StreamFileAtomically(const std::filesystem::path& file,
 void WriteFileAtomically(const std::filesystem::path& file,
                          const std::function<void(const std::filesystem::path&)>& write);
 
+// Whether a file's name is such a temporary one: a program that was killed may leave some.
+bool IsTemporaryName(const std::filesystem::path& file);
+
 }  // namespace groundglass

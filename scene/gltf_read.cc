@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <set>
 
 namespace groundglass {
@@ -33,6 +34,13 @@ bool KeepImageBytes(tinygltf::Image* image,
 // glTF is y up with z towards the viewer; `world` is z up.
 Eigen::Vector3d WorldFromGltf(const Eigen::Vector3d& point) {
   return {point.x(), -point.z(), point.y()};
+}
+
+bool BeginsWith(const std::filesystem::path& file, std::string_view mark) {
+  std::string begin(mark.size(), '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == mark;
 }
 
 class GltfReader {
@@ -73,7 +81,7 @@ class GltfReader {
     std::string warnings;
     bool is_read = false;
     try {
-      is_read = LowerCase(file_.extension().string()) == ".glb"
+      is_read = BeginsWith(file_, "glTF")  // whatever it is called
                     ? parser.LoadBinaryFromFile(&gltf_, &faults, &warnings, file_.string())
                     : parser.LoadASCIIFromFile(&gltf_, &faults, &warnings, file_.string());
     } catch (const std::exception& exception) {
@@ -192,8 +200,7 @@ class GltfReader {
                        const Eigen::Matrix4d& transform) {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return;
-    if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 &&
-        At(gltf_.accessors, position->second, "accessor").bufferView < 0) {
+    if (primitive.extensions.count("KHR_draco_mesh_compression") > 0) {
       Fail("a mesh is compressed by Draco (KHR_draco_mesh_compression); write it again without");
     }
     const std::vector<double> coordinates = ReadAccessor(position->second, 3);

@@ -99,6 +99,12 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
                 "holds files that are not ours (no manifest.json of groundglass); name an "
                 "empty or new folder");
   }
+  // What a run that was killed was writing.
+  std::vector<std::filesystem::path> left_over;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (IsTemporaryName(entry.path())) left_over.push_back(entry.path());
+  }
+  for (const std::filesystem::path& part : left_over) std::filesystem::remove(part, failure);
   return lock;
 }
 

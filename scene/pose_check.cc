@@ -87,7 +87,7 @@ PoseCheck CheckPoses(const PolygonModel& model, const std::vector<Camera>& camer
     return count.load();
   };
   check.num_seeing = count_seeing([](const RigidTransform& written) { return written; });
-  if (cameras.empty() || 5 * check.num_seeing >= check.num_cameras) return check;
+  if (cameras.empty() || 2 * check.num_seeing >= check.num_cameras) return check;
 
   const std::string of_all = " of " + std::to_string(check.num_cameras) + " cameras";
   const std::string seen = (check.num_seeing == 0 ? "none" : std::to_string(check.num_seeing)) +

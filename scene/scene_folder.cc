@@ -71,7 +71,7 @@ std::vector<fs::path> ListFiles(const fs::path& folder) {
 fs::path FindViews(const fs::path& given) {
   for (const fs::path& folder : {given, given / "views"}) {
     for (const fs::path& file : ListFiles(folder)) {
-      if (file.extension() == ".view") return folder;
+      if (LowerCase(file.extension().string()) == ".view") return folder;
     }
   }
   return {};
@@ -240,7 +240,7 @@ class SceneReader {
     if (fs::is_directory(views, error)) {
       if (has_table) Warn(table, "not read, since there is a folder views/");
       for (const fs::path& file : ListFiles(views)) {
-        if (file.extension() != ".view") {
+        if (LowerCase(file.extension().string()) != ".view") {
           Warn(file, "not a view file; expected the extension .view");
           continue;
         }
@@ -367,7 +367,7 @@ class SceneReader {
       Photograph photograph;
       photograph.name = name;
       photograph.image_file = image->second;
-      if (place.extension() == ".view") photograph.view_file = place;
+      if (LowerCase(place.extension().string()) == ".view") photograph.view_file = place;
       if (found != tags_.end()) photograph.tag = found->second.tag;
       try {
         photograph.size = ReadImageSize(image->second);

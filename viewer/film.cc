@@ -77,12 +77,16 @@ class Encoder {
     while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
     process_ = -1;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+    // It may end with 0 although it could not write the end; with -loglevel error, whatever it says
+    // is a failure.
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && LastMessage().empty()) return;
     if (WIFEXITED(status) && WEXITSTATUS(status) == kProgramNotFound) {
       throw Error("film: the program " + program_ +
                   " was not found; install it (Debian: apt-get install ffmpeg)");
     }
-    throw Error("film: " + program_ + " failed: " + LastMessage());
+    const std::string message = LastMessage();
+    throw Error("film: " + program_ +
+                " failed: " + (message.empty() ? "it said nothing" : message));
   }
 
  private:
@@ -93,7 +97,7 @@ class Encoder {
 
   std::string LastMessage() {
     std::rewind(messages_);
-    std::string last = "it said nothing";
+    std::string last;
     char line[500];
     while (std::fgets(line, sizeof(line), messages_)) {
       std::string text = line;
