@@ -46,7 +46,7 @@ std::optional<fs::path> FindBelow(const fs::path& folder, const fs::path& relati
 
 // "-s 1 1 1 -clamp on photo of wall.jpg": options with as many words as each takes, then a name
 // with blanks.
-void ReadPicture(std::string_view text, Material& material) {
+void ReadPicture(std::string_view text, ObjMaterial& material) {
   struct Option {
     std::string_view name;
     int least;
@@ -97,9 +97,9 @@ void ReadPicture(std::string_view text, Material& material) {
   material.picture = std::string(text);
 }
 
-void ReadLibrary(const fs::path& library, std::map<std::string, Material>& materials) {
+void ReadLibrary(const fs::path& library, std::map<std::string, ObjMaterial>& materials) {
   const std::string text = ReadTextFile(library);
-  Material* material = nullptr;
+  ObjMaterial* material = nullptr;
   for (ContinuedLines lines(text); lines.Next();) {
     const std::string keyword = LowerCase(lines.keyword());
     if (keyword == "newmtl") {
@@ -131,10 +131,10 @@ std::optional<fs::path> FindNamedFile(const fs::path& folder, const std::string&
   return FindBelow(folder, path.filename());
 }
 
-std::map<std::string, Material> ReadMaterials(const fs::path& obj_file,
-                                              const std::vector<std::string>& libraries,
-                                              std::vector<std::string>& warnings) {
-  std::map<std::string, Material> materials;
+std::map<std::string, ObjMaterial> ReadMaterials(const fs::path& obj_file,
+                                                 const std::vector<std::string>& libraries,
+                                                 std::vector<std::string>& warnings) {
+  std::map<std::string, ObjMaterial> materials;
   const fs::path folder = obj_file.parent_path();
   const auto read = [&](const std::string& name) {
     const auto library = FindNamedFile(folder, name);

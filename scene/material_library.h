@@ -13,7 +13,7 @@
 namespace groundglass {
 
 // What a material of an OBJ file's library shows.
-struct Material {
+struct ObjMaterial {
   std::string picture;           // as written; empty if it has none
   std::filesystem::path folder;  // of the library
   // Texture points are scaled, then moved (`-s` and `-o`).
@@ -23,9 +23,9 @@ struct Material {
 
 // The materials of the libraries that the OBJ file names, by their names; what is missing is a
 // warning.
-std::map<std::string, Material> ReadMaterials(const std::filesystem::path& obj_file,
-                                              const std::vector<std::string>& libraries,
-                                              std::vector<std::string>& warnings);
+std::map<std::string, ObjMaterial> ReadMaterials(const std::filesystem::path& obj_file,
+                                                 const std::vector<std::string>& libraries,
+                                                 std::vector<std::string>& warnings);
 
 // A file that another one names, as exporters on other systems do: with backslashes, in another
 // case, or with a folder that exists on their machine only (the name alone is then sought beside

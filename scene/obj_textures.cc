@@ -53,7 +53,7 @@ class ObjTexturer {
 
  private:
   // -1 if there is no such picture, or it cannot be read.
-  int PageOf(const Material& material) {
+  int PageOf(const ObjMaterial& material) {
     const auto [known, is_new] = page_of_picture_.try_emplace({material.folder, material.picture});
     Picture& picture = known->second;
     ++picture.num_faces;
@@ -95,7 +95,7 @@ class ObjTexturer {
   const std::filesystem::path& file_;
   const ObjReading& obj_;
   MeshReading& reading_;
-  std::map<std::string, Material> materials_;
+  std::map<std::string, ObjMaterial> materials_;
   std::map<std::pair<std::filesystem::path, std::string>, Picture> page_of_picture_;
   std::map<std::string, int> num_without_material_;
 };
