@@ -13,37 +13,37 @@
 namespace groundglass {
 namespace {
 
-constexpr double kSide = 420;  // of the panel, in the picture's units
+constexpr double kPlotSide = 420;  // of the panel, in the picture's units
 constexpr double kLeft = 64;
-constexpr double kTop = 44;
+constexpr double kPlotTop = 44;
 constexpr const char* kColors[] = {
     "#1b7a3d", "#3366aa", "#c77700", "#b3261e", "#7b3fa0", "#00838f", "#6d4c41", "#555555"};
 
-double X(double share) { return kLeft + kSide * share; }
-double Y(double share) { return kTop + kSide * (1 - share); }
+double X(double share) { return kLeft + kPlotSide * share; }
+double Y(double share) { return kPlotTop + kPlotSide * (1 - share); }
 
 void DrawAxes(std::string& svg) {
   AppendSvg(svg,
             "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" "
             "stroke=\"#444\"/>\n",
             kLeft,
-            kTop,
-            kSide,
-            kSide);
+            kPlotTop,
+            kPlotSide,
+            kPlotSide);
   for (int percent = 0; percent <= 100; percent += 20) {
     const double share = percent / 100.0;
     AppendSvg(svg,
               "<path d=\"M%.1f %.1fV%.1fM%.1f %.1fH%.1f\" stroke=\"#ddd\" fill=\"none\"/>\n",
               X(share),
-              kTop,
-              kTop + kSide,
+              kPlotTop,
+              kPlotTop + kPlotSide,
               kLeft,
               Y(share),
-              kLeft + kSide);
+              kLeft + kPlotSide);
     AppendSvg(svg,
               "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%d %%</text>\n",
               X(share),
-              kTop + kSide + 16,
+              kPlotTop + kPlotSide + 16,
               percent);
     AppendSvg(svg,
               "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%d %%</text>\n",
@@ -53,13 +53,13 @@ void DrawAxes(std::string& svg) {
   }
   AppendSvg(svg,
             "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">confidence claimed</text>\n",
-            kLeft + kSide / 2,
-            kTop + kSide + 36);
+            kLeft + kPlotSide / 2,
+            kPlotTop + kPlotSide + 36);
   AppendSvg(svg,
             "<text transform=\"translate(%.1f %.1f) rotate(-90)\" text-anchor=\"middle\">truths "
             "inside</text>\n",
             kLeft - 46,
-            kTop + kSide / 2);
+            kPlotTop + kPlotSide / 2);
   AppendSvg(svg,
             "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#888\" stroke-dasharray=\"5 4\"/>\n",
             X(0),
@@ -129,9 +129,10 @@ CalibrationCurve ReadCalibrationCurve(const std::string& name, const std::filesy
 }
 
 std::string FormatCalibrationPlot(const std::vector<CalibrationCurve>& curves) {
-  const double legend_top = kTop + kSide + 60;
+  const double legend_top = kPlotTop + kPlotSide + 60;
   const double height = legend_top + 18 * static_cast<double>(curves.size()) + 8;
-  std::string svg = SvgHead(kLeft + kSide + 24, height, kLeft, "Truths inside their ellipsoids");
+  std::string svg =
+      SvgHead(kLeft + kPlotSide + 24, height, kLeft, "Truths inside their ellipsoids");
   DrawAxes(svg);
   for (size_t i = 0; i < curves.size(); ++i) {
     const char* color = kColors[i % std::size(kColors)];

@@ -10,9 +10,9 @@
 namespace groundglass {
 namespace {
 
-constexpr double kSide = 330;  // of a panel, in the picture's units
+constexpr double kPanelSide = 330;  // of a panel, in the picture's units
 constexpr double kMargin = 64;
-constexpr double kTop = 54;
+constexpr double kPanelTop = 54;
 
 // Both axes cover the same whole decades, so that equal errors lie on the diagonal.
 struct Panel {
@@ -24,8 +24,8 @@ struct Panel {
     const double decade = std::log10(std::max(value, 1e-12));
     return std::clamp((decade - low_decade) / (high_decade - low_decade), 0.0, 1.0);
   }
-  double X(double value) const { return left + kSide * Share(value); }
-  double Y(double value) const { return kTop + kSide * (1 - Share(value)); }
+  double X(double value) const { return left + kPanelSide * Share(value); }
+  double Y(double value) const { return kPanelTop + kPanelSide * (1 - Share(value)); }
 };
 
 Panel PanelFor(double left, const std::vector<double>& values) {
@@ -47,9 +47,9 @@ void DrawAxes(const Panel& panel,
             "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" "
             "stroke=\"#444\"/>\n",
             panel.left,
-            kTop,
-            kSide,
-            kSide);
+            kPanelTop,
+            kPanelSide,
+            kPanelSide);
   for (int decade = panel.low_decade; decade <= panel.high_decade; ++decade) {
     const double value = std::pow(10.0, decade);
     const double x = panel.X(value);
@@ -57,15 +57,15 @@ void DrawAxes(const Panel& panel,
     AppendSvg(svg,
               "<path d=\"M%.1f %.1fV%.1fM%.1f %.1fH%.1f\" stroke=\"#ddd\" fill=\"none\"/>\n",
               x,
-              kTop,
-              kTop + kSide,
+              kPanelTop,
+              kPanelTop + kPanelSide,
               panel.left,
               y,
-              panel.left + kSide);
+              panel.left + kPanelSide);
     AppendSvg(svg,
               "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%g</text>\n",
               x,
-              kTop + kSide + 16,
+              kPanelTop + kPanelSide + 16,
               value);
     AppendSvg(svg,
               "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%g</text>\n",
@@ -75,14 +75,14 @@ void DrawAxes(const Panel& panel,
   }
   AppendSvg(svg,
             "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n",
-            panel.left + kSide / 2,
-            kTop + kSide + 36,
+            panel.left + kPanelSide / 2,
+            kPanelTop + kPanelSide + 36,
             EscapedForSvg(x_label).c_str());
   AppendSvg(
       svg,
       "<text transform=\"translate(%.1f %.1f) rotate(-90)\" text-anchor=\"middle\">%s</text>\n",
       panel.left - 44,
-      kTop + kSide / 2,
+      kPanelTop + kPanelSide / 2,
       EscapedForSvg(y_label).c_str());
 }
 
@@ -187,9 +187,9 @@ std::string FormatErrorPlot(const std::vector<ErrorPlotPoint>& points,
     }
   }
   const Panel errors = PanelFor(kMargin, pixels);
-  const Panel claims = PanelFor(2 * kMargin + kSide + 16, lengths);
-  const double width = claims.left + kSide + 24;
-  const double height = kTop + kSide + 76;
+  const Panel claims = PanelFor(2 * kMargin + kPanelSide + 16, lengths);
+  const double width = claims.left + kPanelSide + 24;
+  const double height = kPanelTop + kPanelSide + 76;
   std::string svg = SvgHead(width, height, kMargin, title);
   DrawAxes(errors, "vertex error at the start, px", "vertex error found, px", svg);
   DrawProportion(errors, 1, "#888888", "nothing gained", 0.9, svg);

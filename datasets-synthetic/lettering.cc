@@ -106,15 +106,15 @@ ImageF MakeBars() {
 
 ImageF MakeQuoins(double low, double high, bool is_left, const Rgb& stone) {
   constexpr double kPixelsPerFoot = 24;
-  constexpr double kCourse = 1.333;  // six courses of brick
+  constexpr double kCourseHeight = 1.333;  // six courses of brick
   constexpr double kJoint = 0.05;
   const int width = static_cast<int>(2 * kPixelsPerFoot);
   const int height = std::max(1, static_cast<int>(std::lround((high - low) * kPixelsPerFoot)));
   ImageF image(width, height, 4);
   for (int y = 0; y < height; ++y) {
     const double v = high - (y + 0.5) * (high - low) / height;
-    const double course = std::floor(v / kCourse);
-    const double above_joint = v - course * kCourse;
+    const double course = std::floor(v / kCourseHeight);
+    const double above_joint = v - course * kCourseHeight;
     const double reach = std::fmod(std::abs(course), 2.0) < 0.5 ? 2.0 : 1.2;
     const auto shade = static_cast<float>(
         0.9 + 0.2 * UniformOf(SeedFor(is_left ? 1 : 2, "quoin", static_cast<uint64_t>(course))));

@@ -189,12 +189,12 @@ Appearance FacadeAppearance(const Surface& surface, const Place& at) {
 
 Appearance BrickAppearance(const Surface& surface, const Place& at) {
   constexpr double kLength = 0.667;
-  constexpr double kCourse = 0.222;
+  constexpr double kCourseHeight = 0.222;
   constexpr double kMortar = 0.035;
-  const double course = std::floor(at.v / kCourse);
+  const double course = std::floor(at.v / kCourseHeight);
   const double shift = std::fmod(std::abs(course), 2.0) * kLength / 2;
   const double column = std::floor((at.u + shift) / kLength);
-  const double fade = CellFade(at, kCourse);
+  const double fade = CellFade(at, kCourseHeight);
   const double chance = CellValue(surface, 1, column, course);
   Rgb albedo = surface.color * static_cast<float>(1 + 0.5 * fade * (chance - 0.5));
   if (CellValue(surface, 2, column, course) < 0.12) {
@@ -202,7 +202,7 @@ Appearance BrickAppearance(const Surface& surface, const Place& at) {
   }
   // Patches fired together, seen from afar.
   albedo *= static_cast<float>(1 + 0.14 * Noise(surface, 3, at, 0.25, 5));
-  const double mortar = 1 - (1 - FilteredLines(at.v, at.width_v, kCourse, kMortar)) *
+  const double mortar = 1 - (1 - FilteredLines(at.v, at.width_v, kCourseHeight, kMortar)) *
                                 (1 - FilteredLines(at.u + shift, at.width_u, kLength, kMortar));
   albedo = Mix(albedo, Rgb(0.42f, 0.4f, 0.36f), mortar);
   return {albedo * static_cast<float>(Weathering(surface, at, 0.9)), 0};
@@ -210,13 +210,14 @@ Appearance BrickAppearance(const Surface& surface, const Place& at) {
 
 Appearance StoneAppearance(const Surface& surface, const Place& at) {
   constexpr double kLength = 3;
-  constexpr double kCourse = 1.5;
-  const double course = std::floor(at.v / kCourse);
+  constexpr double kCourseHeight = 1.5;
+  const double course = std::floor(at.v / kCourseHeight);
   const double shift = std::fmod(std::abs(course), 2.0) * kLength / 2;
   const double column = std::floor((at.u + shift) / kLength);
-  double factor = 1 + 0.24 * CellFade(at, kCourse) * (CellValue(surface, 1, column, course) - 0.5);
+  double factor =
+      1 + 0.24 * CellFade(at, kCourseHeight) * (CellValue(surface, 1, column, course) - 0.5);
   factor *= 1 + 0.1 * Noise(surface, 2, at, 0.6, 5);
-  const double joints = 1 - (1 - FilteredLines(at.v, at.width_v, kCourse, 0.06)) *
+  const double joints = 1 - (1 - FilteredLines(at.v, at.width_v, kCourseHeight, 0.06)) *
                                 (1 - FilteredLines(at.u + shift, at.width_u, kLength, 0.06));
   Rgb albedo = surface.color * static_cast<float>(factor * Weathering(surface, at, 1));
   return {Mix(albedo, albedo * 0.4f, joints), 0};
@@ -224,13 +225,14 @@ Appearance StoneAppearance(const Surface& surface, const Place& at) {
 
 Appearance SlateAppearance(const Surface& surface, const Place& at) {
   constexpr double kWidth = 0.8;
-  constexpr double kCourse = 0.7;
-  const double course = std::floor(at.v / kCourse);
+  constexpr double kCourseHeight = 0.7;
+  const double course = std::floor(at.v / kCourseHeight);
   const double shift = std::fmod(std::abs(course), 2.0) * kWidth / 2;
   const double column = std::floor((at.u + shift) / kWidth);
-  double factor = 1 + 0.6 * CellFade(at, kCourse) * (CellValue(surface, 1, column, course) - 0.5);
+  double factor =
+      1 + 0.6 * CellFade(at, kCourseHeight) * (CellValue(surface, 1, column, course) - 0.5);
   factor *= 1 + 0.15 * Noise(surface, 2, at, 0.08, 5);
-  const double shadows = FilteredLines(at.v, at.width_v, kCourse, 0.07);
+  const double shadows = FilteredLines(at.v, at.width_v, kCourseHeight, 0.07);
   const double gaps = FilteredLines(at.u + shift, at.width_u, kWidth, 0.04);
   Rgb albedo = surface.color * static_cast<float>(factor);
   return {albedo * static_cast<float>(1 - 0.55 * (1 - (1 - shadows) * (1 - gaps))), 0};

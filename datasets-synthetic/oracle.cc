@@ -22,11 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSide = 2;  // samples along a pixel's side
-constexpr int kSamples = kSide * kSide;
+constexpr int kSamplesPerSide = 2;  // samples along a pixel's side
+constexpr int kSamplesPerPixel = kSamplesPerSide * kSamplesPerSide;
 
 // Where one sample of a pixel meets the model.
-struct Place {
+struct SeenPlace {
   int face = -1;
   Eigen::Vector3d point_in_world;
   Eigen::Vector3d normal_in_world;
@@ -42,19 +42,19 @@ class Tracer {
   }
 
   // Nothing where the sample shows no face's front.
-  std::optional<Place> Trace(const Camera& camera, int x, int y, int sample) const {
-    const Eigen::Vector2d px(x + (sample % kSide + 0.5) / kSide,
-                             y + (sample / kSide + 0.5) / kSide);
+  std::optional<SeenPlace> Trace(const Camera& camera, int x, int y, int sample) const {
+    const Eigen::Vector2d px(x + (sample % kSamplesPerSide + 0.5) / kSamplesPerSide,
+                             y + (sample / kSamplesPerSide + 0.5) / kSamplesPerSide);
     const Eigen::Vector3d position = camera.PositionInWorld();
     const Eigen::Vector3d direction = UnprojectToWorld(camera, px);
     const auto hit = visibility_.FirstHit(position, direction);
     if (!hit || !hit->is_front) return std::nullopt;
-    return Place{hit->face, position + hit->distance * direction, normals_[hit->face]};
+    return SeenPlace{hit->face, position + hit->distance * direction, normals_[hit->face]};
   }
 
   // Pixels of the photograph for one model unit at the place, in the direction with the fewest; 0
   // if it lies outside the frame or shows its back.
-  double Resolution(const Camera& camera, const Place& place) const {
+  double Resolution(const Camera& camera, const SeenPlace& place) const {
     const Eigen::Vector3d& normal = place.normal_in_world;
     const Eigen::Vector3d to_camera = camera.PositionInWorld() - place.point_in_world;
     if (to_camera.dot(normal) <= 0) return 0;
@@ -74,7 +74,7 @@ class Tracer {
   }
 
   // Whether no other face stands between, and the place is not behind the slide's mount.
-  bool IsShown(const Camera& camera, const Image8& mount, const Place& place) const {
+  bool IsShown(const Camera& camera, const Image8& mount, const SeenPlace& place) const {
     const auto px = Project(camera, place.point_in_world);
     if (!px || !IsInsideFrame(camera, *px)) return false;
     if (!mount.Empty()) {
@@ -119,8 +119,8 @@ Eigen::Array3f LookUp(const ImageF& radiance, const Eigen::Vector2d& px) {
 }
 
 // One novel view on its way.
-struct View {
-  Image16 best;  // kSamples channels: the photograph, from 1
+struct OracleView {
+  Image16 best;  // kSamplesPerPixel channels: the photograph, from 1
   ImageF sum;    // radiance over the samples that some photograph shows
 };
 
@@ -165,16 +165,16 @@ std::vector<OraclePicture> RenderOracle(const PolygonModel& model,
     mounts.push_back(ReadMount(photograph, model.faces.size()));
     if (!mounts.back().Empty()) CheckSize(photograph, mounts.back().width, mounts.back().height);
   }
-  std::vector<View> views;
+  std::vector<OracleView> views;
   for (const Camera& camera : cameras) {
-    View& view = views.emplace_back();
-    view.best = Image16(camera.width_px, camera.height_px, kSamples);
+    OracleView& view = views.emplace_back();
+    view.best = Image16(camera.width_px, camera.height_px, kSamplesPerPixel);
     view.sum = ImageF(camera.width_px, camera.height_px, 3);
     tbb::parallel_for(0, camera.height_px, [&](int y) {
       std::vector<std::pair<double, size_t>> candidates;
       for (int x = 0; x < camera.width_px; ++x) {
         int face = -1;
-        for (int sample = 0; sample < kSamples; ++sample) {
+        for (int sample = 0; sample < kSamplesPerPixel; ++sample) {
           const auto place = tracer.Trace(camera, x, y, sample);
           if (!place) continue;
           if (place->face != face) {  // their order is the same all over a pixel of one face
@@ -201,7 +201,7 @@ std::vector<OraclePicture> RenderOracle(const PolygonModel& model,
     for (size_t v = 0; v < views.size(); ++v) {
       tbb::parallel_for(0, cameras[v].height_px, [&](int y) {
         for (int x = 0; x < cameras[v].width_px; ++x) {
-          for (int sample = 0; sample < kSamples; ++sample) {
+          for (int sample = 0; sample < kSamplesPerPixel; ++sample) {
             if (views[v].best.At(x, y)[sample] != i + 1) continue;
             const auto place = tracer.Trace(cameras[v], x, y, sample);
             const auto px = Project(photographs[i].camera, place->point_in_world);
@@ -212,14 +212,15 @@ std::vector<OraclePicture> RenderOracle(const PolygonModel& model,
     }
   }
   std::vector<OraclePicture> pictures;
-  for (const View& view : views) {
+  for (const OracleView& view : views) {
     OraclePicture& picture = pictures.emplace_back();
     picture.srgb8 = Image8(view.sum.width, view.sum.height, 3);
     picture.covered = Image8(view.sum.width, view.sum.height, 1);
     for (int y = 0; y < view.sum.height; ++y) {
       for (int x = 0; x < view.sum.width; ++x) {
         const uint16_t* best = view.best.At(x, y);
-        const auto count = std::count_if(best, best + kSamples, [](uint16_t b) { return b != 0; });
+        const auto count =
+            std::count_if(best, best + kSamplesPerPixel, [](uint16_t b) { return b != 0; });
         if (count == 0) continue;
         *picture.covered.At(x, y) = 255;
         for (int c = 0; c < 3; ++c) {

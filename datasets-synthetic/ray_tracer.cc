@@ -54,9 +54,9 @@ struct PixelRays {
   }
 };
 
-class Tracer {
+class PathTracer {
  public:
-  Tracer(const RayScene& scene, const Camera& camera, uint64_t seed)
+  PathTracer(const RayScene& scene, const Camera& camera, uint64_t seed)
       : scene_(scene),
         camera_(camera),
         seed_(seed),
@@ -274,7 +274,7 @@ class Tracer {
 }  // namespace
 
 ImageF RenderRadiance(const RayScene& scene, const Camera& camera, uint64_t seed) {
-  return Tracer(scene, camera, seed).Render();
+  return PathTracer(scene, camera, seed).Render();
 }
 
 }  // namespace groundglass

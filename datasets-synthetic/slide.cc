@@ -41,15 +41,15 @@ cv::Mat MakeGrain(int width, int height, uint64_t seed) {
 // `is_inside`, symmetric about the centre so that nothing moves.
 template <typename Inside>
 cv::Mat KernelOf(double reach_px, const Inside& is_inside) {
-  constexpr int kSamples = 8;
+  constexpr int kSamplesAcross = 8;
   const int half = static_cast<int>(std::ceil(reach_px));
   cv::Mat kernel(2 * half + 1, 2 * half + 1, CV_32F);
   for (int y = -half; y <= half; ++y) {
     for (int x = -half; x <= half; ++x) {
       int count = 0;
-      for (int i = 0; i < kSamples * kSamples; ++i) {
-        count += is_inside(x + (i % kSamples + 0.5) / kSamples - 0.5,
-                           y + (i / kSamples + 0.5) / kSamples - 0.5);
+      for (int i = 0; i < kSamplesAcross * kSamplesAcross; ++i) {
+        count += is_inside(x + (i % kSamplesAcross + 0.5) / kSamplesAcross - 0.5,
+                           y + (i / kSamplesAcross + 0.5) / kSamplesAcross - 0.5);
       }
       kernel.at<float>(y + half, x + half) = static_cast<float>(count);
     }

@@ -86,7 +86,7 @@ bool IsFromPhotograph(const TexturePage& page, const Eigen::Vector2d& at) {
 FaceSums CompareChart(const TexturedModel& model,
                       const SurfaceChart& chart,
                       const SurfacePage& truth) {
-  constexpr int kSamples = 4;  // each way, over one texel of the truth
+  constexpr int kSamplesAcross = 4;  // each way, over one texel of the truth
   FaceSums sums;
   TexelMap map;
   if (chart.face < static_cast<int>(model.faces.size())) {
@@ -105,13 +105,14 @@ FaceSums CompareChart(const TexturedModel& model,
       };
       if (!IsFromPhotograph(page, texel_at(0.5, 0.5))) continue;
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (int i = 0; i < kSamples * kSamples; ++i) {
+      for (int i = 0; i < kSamplesAcross * kSamplesAcross; ++i) {
         sum += LightAt(page.srgb8,
-                       texel_at((i % kSamples + 0.5) / kSamples, (i / kSamples + 0.5) / kSamples));
+                       texel_at((i % kSamplesAcross + 0.5) / kSamplesAcross,
+                                (i / kSamplesAcross + 0.5) / kSamplesAcross));
       }
       const float* radiance = truth.radiance.At(x, y);
       sums.Add({Levels(radiance[0]), Levels(radiance[1]), Levels(radiance[2])},
-               (sum / (kSamples * kSamples)).unaryExpr(&Levels));
+               (sum / (kSamplesAcross * kSamplesAcross)).unaryExpr(&Levels));
     }
   }
   return sums;

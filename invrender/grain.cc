@@ -98,7 +98,7 @@ struct Agreement {
 Agreement MeasureAgreement(std::vector<SpotPair> pairs) {
   constexpr int kShift = 3;
   constexpr int kNumShifts = 2 * kShift + 1;
-  constexpr int kSide = kInner - 2 * kShift;
+  constexpr int kInside = kInner - 2 * kShift;
   using Correlations = Eigen::Array<double, kNumShifts, kNumShifts>;
   std::stable_sort(pairs.begin(), pairs.end(), [](const SpotPair& a, const SpotPair& b) {
     return a.energy < b.energy;
@@ -108,12 +108,12 @@ Agreement MeasureAgreement(std::vector<SpotPair> pairs) {
   for (size_t i = 0; i < num_calm; ++i) {
     Correlations& sum = sums.try_emplace(pairs[i].Photos(), Correlations::Zero()).first->second;
     const BandPatch second = pairs[i].second->Both();
-    const Eigen::Array<float, kSide, kSide> a =
-        pairs[i].first->Both().block<kSide, kSide>(kShift, kShift);
+    const Eigen::Array<float, kInside, kInside> a =
+        pairs[i].first->Both().block<kInside, kInside>(kShift, kShift);
     const float energy = a.square().sum();
     for (int y = 0; y < kNumShifts; ++y) {
       for (int x = 0; x < kNumShifts; ++x) {
-        const auto b = second.block<kSide, kSide>(y, x);
+        const auto b = second.block<kInside, kInside>(y, x);
         sum(y, x) += (a * b).sum() / std::sqrt(energy * b.square().sum() + 1e-12f);
       }
     }

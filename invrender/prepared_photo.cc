@@ -14,17 +14,6 @@
 namespace groundglass {
 namespace {
 
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
-void CheckSize(const std::filesystem::path& file, int width, int height, const Camera& camera) {
-  if (width == camera.width_px && height == camera.height_px) return;
-  throw Error(file,
-              "is " + SizeText(width, height) + " px, but its camera is for " +
-                  SizeText(camera.width_px, camera.height_px));
-}
-
 // This many pixels beyond the margin a border no longer lowers a pixel's quality.
 constexpr double kTrustedFrom = 4;
 
@@ -82,6 +71,17 @@ Image8 FindIgnored(const BakePhotograph& photograph,
 
 }  // namespace
 
+void CheckFitsCamera(const std::filesystem::path& file,
+                     int width,
+                     int height,
+                     const Camera& camera) {
+  if (width == camera.width_px && height == camera.height_px) return;
+  const auto text = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
+  throw Error(file,
+              "is " + text(width, height) + " px, but its camera is for " +
+                  text(camera.width_px, camera.height_px));
+}
+
 PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
                              int index,
                              const PolygonModel& model,
@@ -112,7 +112,7 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
     for (const int face : *photograph.faces) allowed_.at(face) = 1;
   }
   const ImageSize size = ReadImageSize(photograph.image_file);
-  CheckSize(photograph.image_file, size.width, size.height, camera_);
+  CheckFitsCamera(photograph.image_file, size.width, size.height, camera_);
   const bool is_asked_for = options.on_face_mask && !detail.is_survey;
   Image16 labels;
   const auto make_labels = [&](int side) {
@@ -125,7 +125,7 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
   }
   if (is_hand_painted_) {
     const Image16 numbers = ReadLabels(*photograph.faces_file);
-    CheckSize(*photograph.faces_file, numbers.width, numbers.height, camera_);
+    CheckFitsCamera(*photograph.faces_file, numbers.width, numbers.height, camera_);
     labels = LabelsFromNumbers(model, numbers, *photograph.faces_file);
   } else if (mask_side_ > 1 || !is_asked_for) {
     make_labels(mask_side_);

@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -34,6 +35,12 @@ struct ChartInCamera {
   Eigen::Vector3d right_in_cam;
   Eigen::Vector3d down_in_cam;
 };
+
+// Throws Error if a picture of width x height pixels is not of the size that its camera is for.
+void CheckFitsCamera(const std::filesystem::path& file,
+                     int width,
+                     int height,
+                     const Camera& camera);
 
 // How much is made of a photograph's mask.
 struct MaskDetail {

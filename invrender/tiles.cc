@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "invrender/tiles.h"
 
+#include "invrender/prepared_photo.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/ignore_mask.h"
@@ -25,7 +26,7 @@ int PixelsAlongSide(const TileOptions& options) {
 
 // The camera of a photograph whose pixels are `side` times as long; what is left over at the right
 // and below is cut off.
-Camera CoarserCamera(const Camera& camera, int side) {
+Camera CameraOfWholeBlocks(const Camera& camera, int side) {
   Camera coarse = camera;
   coarse.width_px /= side;
   coarse.height_px /= side;
@@ -34,14 +35,6 @@ Camera CoarserCamera(const Camera& camera, int side) {
   coarse.center_x_px /= side;
   coarse.center_y_px /= side;
   return coarse;
-}
-
-void CheckSize(const std::filesystem::path& file, int width, int height, const Camera& camera) {
-  if (width == camera.width_px && height == camera.height_px) return;
-  throw Error(file,
-              "is " + std::to_string(width) + "x" + std::to_string(height) +
-                  " px, but its camera is for " + std::to_string(camera.width_px) + "x" +
-                  std::to_string(camera.height_px));
 }
 
 // One value for each block of pixels: the one that they all have, else `mixed`.
@@ -69,11 +62,11 @@ Image16 MakeTileLabels(const PolygonModel& model,
   Image16 labels;
   if (photograph.faces_file) {
     const Image16 painted = ReadLabels(*photograph.faces_file);
-    CheckSize(*photograph.faces_file, painted.width, painted.height, photograph.camera);
+    CheckFitsCamera(*photograph.faces_file, painted.width, painted.height, photograph.camera);
     labels =
         Unanimous(LabelsFromNumbers(model, painted, *photograph.faces_file), side, uint16_t{0});
   } else {
-    labels = MakeFaceMask(model, visibility, CoarserCamera(photograph.camera, side));
+    labels = MakeFaceMask(model, visibility, CameraOfWholeBlocks(photograph.camera, side));
   }
   if (photograph.mask_file) {
     const Image8 mask = ReadIgnoreMask(*photograph.mask_file,
@@ -89,7 +82,7 @@ Image16 MakeTileLabels(const PolygonModel& model,
 // The photograph with `side` x `side` pixels averaged into one, as sRGB codes from 0 to 1.
 ImageF ReadCoarse(const BakePhotograph& photograph, int side) {
   const Image8 fine = ReadSrgb8(photograph.image_file);
-  CheckSize(photograph.image_file, fine.width, fine.height, photograph.camera);
+  CheckFitsCamera(photograph.image_file, fine.width, fine.height, photograph.camera);
   std::array<float, 256> radiance;
   for (int i = 0; i < 256; ++i) radiance[i] = LinearFromSrgb(static_cast<float>(i) / 255.0f);
   ImageF coarse(fine.width / side, fine.height / side, 3);
@@ -156,7 +149,7 @@ void MakeTiles(const PolygonModel& model,
   options.Check();
   if (faces.empty()) return;
   const int side = PixelsAlongSide(options);
-  const Camera camera = CoarserCamera(photograph.camera, side);
+  const Camera camera = CameraOfWholeBlocks(photograph.camera, side);
   const Image16 labels = MakeTileLabels(model, visibility, photograph, side);
   const ImageF codes = ReadCoarse(photograph, side);
   std::vector<std::optional<FacePlane>> planes(model.faces.size());

@@ -11,6 +11,7 @@
 #include "register/weighted_median.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
+#include "scene/least_norm.h"
 #include "scene/model_sigma.h"
 #include "scene/text.h"
 
@@ -215,7 +216,7 @@ void JointSolver::StartLenses() {
   for (size_t p = 0; p < moving_.size(); ++p) {
     const CameraParameters change = photographs_[p].prior.root * photographs_[p].whitened;
     const auto& lens_root = moving_[p].prior.lens_root;
-    lenses_[moving_[p].lens] += lens_root.completeOrthogonalDecomposition().solve(change);
+    lenses_[moving_[p].lens] += SolveLeastNorm(lens_root, change);
     ++counts[moving_[p].lens];
   }
   for (int i = 0; i < num_lenses; ++i) lenses_[i] /= std::max(1, counts[i]);

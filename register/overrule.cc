@@ -7,17 +7,10 @@
 #include <algorithm>
 
 namespace groundglass {
-namespace {
-
-bool Contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-}  // namespace
 
 void OverruleOptions::Check() const {
   for (const std::string& name : accept) {
-    if (Contains(reject, name)) {
+    if (std::ranges::count(reject, name) > 0) {
       throw Error("options accept and reject: photograph '" + name + "' is in both");
     }
   }
@@ -33,8 +26,8 @@ void OverruleVerdict(const OverruleOptions& options, Registration& registration)
     registration.verdict = verdict;
   };
   if (registration.verdict == Verdict::kUnreadable) return;  // nobody can decide that
-  if (Contains(options.accept, registration.name)) decide(Verdict::kAccepted);
-  if (Contains(options.reject, registration.name)) decide(Verdict::kRejected);
+  if (std::ranges::count(options.accept, registration.name) > 0) decide(Verdict::kAccepted);
+  if (std::ranges::count(options.reject, registration.name) > 0) decide(Verdict::kRejected);
 }
 
 }  // namespace groundglass

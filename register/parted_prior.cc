@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "register/parted_prior.h"
 
+#include "scene/least_norm.h"
+
 #include <cmath>
 
 namespace groundglass {
@@ -19,7 +21,7 @@ PartedPrior PartPrior(const CameraPrior& prior, const LensParameters& own_shares
   Eigen::Matrix<double, kNumCameraParameters, kNumCameraParameters + kNumLensParameters> parts;
   parts << parted.own_root, parted.lens_root;
   // Locked parameters have no whitened direction.
-  parted.whole_from_parts = prior.root.completeOrthogonalDecomposition().solve(parts);
+  parted.whole_from_parts = SolveLeastNorm(prior.root, parts);
   return parted;
 }
 

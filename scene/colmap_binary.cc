@@ -70,7 +70,7 @@ class ByteReader {
   size_t next_ = 0;
 };
 
-std::map<long long, ColmapCamera> ReadCameras(const fs::path& file) {
+std::map<long long, ColmapCamera> ReadCamerasBin(const fs::path& file) {
   ByteReader reader(file);
   std::map<long long, ColmapCamera> cameras;
   const uint64_t count = reader.ReadCount(4 + 4 + 8 + 8);
@@ -101,7 +101,7 @@ std::map<long long, ColmapCamera> ReadCameras(const fs::path& file) {
   return cameras;
 }
 
-std::vector<ColmapImage> ReadImages(const fs::path& file) {
+std::vector<ColmapImage> ReadImagesBin(const fs::path& file) {
   ByteReader reader(file);
   std::vector<ColmapImage> images;
   const uint64_t count = reader.ReadCount(4 + 7 * 8 + 4 + 1 + 8);
@@ -124,7 +124,7 @@ std::vector<ColmapImage> ReadImages(const fs::path& file) {
 }  // namespace
 
 ColmapRecords ReadColmapBinary(const fs::path& cameras_file, const fs::path& images_file) {
-  return {ReadCameras(cameras_file), ReadImages(images_file)};
+  return {ReadCamerasBin(cameras_file), ReadImagesBin(images_file)};
 }
 
 }  // namespace groundglass

@@ -53,7 +53,7 @@ class FieldReader {
   size_t next_ = 0;
 };
 
-std::map<long long, ColmapCamera> ReadCameras(const fs::path& file) {
+std::map<long long, ColmapCamera> ReadCamerasTxt(const fs::path& file) {
   std::map<long long, ColmapCamera> cameras;
   const std::string text = ReadTextFile(file);
   for (const TextLine& line : SplitLines(text, '\0')) {
@@ -79,7 +79,7 @@ std::map<long long, ColmapCamera> ReadCameras(const fs::path& file) {
   return cameras;
 }
 
-std::vector<ColmapImage> ReadImages(const fs::path& file) {
+std::vector<ColmapImage> ReadImagesTxt(const fs::path& file) {
   constexpr const char* kPoseFields[] = {"QW", "QX", "QY", "QZ", "TX", "TY", "TZ"};
   const std::string text = ReadTextFile(file);
   std::vector<ColmapImage> images;
@@ -111,7 +111,7 @@ std::vector<ColmapImage> ReadImages(const fs::path& file) {
 }  // namespace
 
 ColmapRecords ReadColmapText(const fs::path& cameras_file, const fs::path& images_file) {
-  return {ReadCameras(cameras_file), ReadImages(images_file)};
+  return {ReadCamerasTxt(cameras_file), ReadImagesTxt(images_file)};
 }
 
 }  // namespace groundglass

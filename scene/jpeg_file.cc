@@ -18,12 +18,12 @@
 namespace groundglass {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
+using JpegBytes = std::vector<unsigned char>;
 
-Bytes ReadBytes(const std::filesystem::path& file) {
+JpegBytes ReadJpegBytes(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   const std::streamoff size = in.tellg();
-  Bytes bytes(std::max<std::streamoff>(size, 0));
+  JpegBytes bytes(std::max<std::streamoff>(size, 0));
   in.seekg(0);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<size_t>(in.gcount()));
@@ -37,7 +37,7 @@ struct Marks {
   int num_scanned = 0;     // components over all scans
 };
 
-Marks FindMarks(const Bytes& bytes) {
+Marks FindMarks(const JpegBytes& bytes) {
   constexpr unsigned char kEnd = 0xD9, kStartOfScan = 0xDA;
   Marks marks;
   size_t at = 2;
@@ -74,7 +74,7 @@ struct DecodingStopped {};
 // One decoding. libjpeg's errors come out as exceptions: its C code is built to be unwound.
 class Decoder {
  public:
-  explicit Decoder(const Bytes& bytes) {
+  explicit Decoder(const JpegBytes& bytes) {
     info_.err = jpeg_std_error(&errors_);
     errors_.error_exit = [](j_common_ptr) { throw DecodingStopped(); };
     errors_.output_message = [](j_common_ptr) {};
@@ -130,7 +130,7 @@ class Decoder {
 }  // namespace
 
 JpegState FindJpegState(const std::filesystem::path& file, bool look_closely) {
-  const Bytes bytes = ReadBytes(file);
+  const JpegBytes bytes = ReadJpegBytes(file);
   if (bytes.size() < 4 || bytes[0] != 0xFF || bytes[1] != 0xD8) return JpegState::kIncomplete;
   const Marks marks = FindMarks(bytes);
   if (marks.has_end && !look_closely) return JpegState::kWhole;
@@ -149,7 +149,7 @@ JpegState FindJpegState(const std::filesystem::path& file, bool look_closely) {
 }
 
 Image8 ReadJpegInks(const std::filesystem::path& file) {
-  const Bytes bytes = ReadBytes(file);
+  const JpegBytes bytes = ReadJpegBytes(file);
   Decoder decoder(bytes);
   try {
     jpeg_decompress_struct& info = decoder.info();

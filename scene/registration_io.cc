@@ -14,21 +14,6 @@ namespace {
 // Ordered, so that a person finds the keys where the docs have them.
 using Json = nlohmann::ordered_json;
 
-struct SigmaKey {
-  const char* name;
-  std::optional<double> TagSigmas::*member;
-};
-constexpr SigmaKey kSigmaKeys[] = {
-    {"sigma_position", &TagSigmas::position},
-    {"sigma_height", &TagSigmas::height},
-    {"sigma_lookat", &TagSigmas::lookat},
-    {"sigma_roll", &TagSigmas::roll_deg},
-    {"sigma_v", &TagSigmas::view_angle_deg},
-    {"sigma_a", &TagSigmas::aspect},
-    {"sigma_shift", &TagSigmas::shift},
-    {"sigma_k1", &TagSigmas::k1},
-};
-
 // Few cameras have k3, p1 and p2: left out where 0.
 bool IsRare(int index) { return static_cast<TagKey>(index) >= TagKey::kK3; }
 
@@ -39,7 +24,7 @@ Json JsonFromTag(const ViewTag& tag) {
     json[std::string(kTagKeyNames[index])] = GetTagValue(tag, static_cast<TagKey>(index));
   }
   for (const SigmaKey& key : kSigmaKeys) {
-    if (const std::optional<double>& sigma = tag.sigmas.*(key.member)) json[key.name] = *sigma;
+    if (const std::optional<double>& sigma = tag.sigmas.*(key.member)) json[std::string(key.name)] = *sigma;
   }
   if (!tag.camera.empty()) json["camera"] = tag.camera;
   return json;
@@ -53,7 +38,8 @@ ViewTag TagFromJson(const Json& json) {
     SetTagValue(tag, static_cast<TagKey>(index), json.at(key).get<double>());
   }
   for (const SigmaKey& key : kSigmaKeys) {
-    if (json.contains(key.name)) tag.sigmas.*(key.member) = json.at(key.name).get<double>();
+    const std::string name(key.name);
+    if (json.contains(name)) tag.sigmas.*(key.member) = json.at(name).get<double>();
   }
   tag.camera = json.value("camera", "");
   return tag;

@@ -16,21 +16,6 @@
 namespace groundglass {
 namespace {
 
-using SigmaMember = std::optional<double> TagSigmas::*;
-struct SigmaKey {
-  std::string_view name;
-  SigmaMember member;
-};
-constexpr std::array<SigmaKey, 8> kSigmaKeys = {{
-    {"sigma_position", &TagSigmas::position},
-    {"sigma_height", &TagSigmas::height},
-    {"sigma_lookat", &TagSigmas::lookat},
-    {"sigma_roll", &TagSigmas::roll_deg},
-    {"sigma_v", &TagSigmas::view_angle_deg},
-    {"sigma_a", &TagSigmas::aspect},
-    {"sigma_shift", &TagSigmas::shift},
-    {"sigma_k1", &TagSigmas::k1},
-}};
 constexpr std::string_view kCameraKey = "camera";
 // In place of a value that is yet to be written (FormatViewTemplate).
 constexpr std::string_view kToBeFilledIn = "?";

@@ -84,6 +84,23 @@ constexpr std::array<std::string_view, kNumTagKeys> kTagKeyNames = {"x",
                                                                     "k3",
                                                                     "p1",
                                                                     "p2"};
+
+// The sigmas' names, in the order in which they are written.
+struct SigmaKey {
+  std::string_view name;
+  std::optional<double> TagSigmas::*member;
+};
+constexpr std::array<SigmaKey, 8> kSigmaKeys = {{
+    {"sigma_position", &TagSigmas::position},
+    {"sigma_height", &TagSigmas::height},
+    {"sigma_lookat", &TagSigmas::lookat},
+    {"sigma_roll", &TagSigmas::roll_deg},
+    {"sigma_v", &TagSigmas::view_angle_deg},
+    {"sigma_a", &TagSigmas::aspect},
+    {"sigma_shift", &TagSigmas::shift},
+    {"sigma_k1", &TagSigmas::k1},
+}};
+
 double GetTagValue(const ViewTag& tag, TagKey key);
 void SetTagValue(ViewTag& tag, TagKey key, double value);
 
