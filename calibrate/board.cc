@@ -227,20 +227,26 @@ void CheckSizes(std::span<const BoardPhotograph> photographs) {
 void Board::Check() const {
   CheckFromTo(columns, 2, kNumTagIds, "board: columns");
   CheckFromTo(rows, 2, kNumTagIds, "board: rows");
-  CheckAbove(tag_size, 0, "board: tag size");
+  CheckAbove(tag_size, 0, "board: tag_size");
   if (!(gap >= 0.1 * tag_size && gap <= tag_size)) {
     const bool may_be_ratio = gap >= 0.1 && gap <= 1;
-    throw Error(
-        "board: gap must be between a tenth of the tag size and the tag size; a tag needs "
+    throw OptionError(
+        "board: gap",
+        "must be between a tenth of the tag size and the tag size; a tag needs "
         "white around it" +
-        (may_be_ratio ? "; if " + FormatNumber(gap) +
-                            " is its ratio to the tag size, as Kalibr's tagSpacing, give --gap " +
-                            FormatNumber(std::round(1e6 * gap * tag_size) / 1e6)
-                      : ""));
+            (may_be_ratio
+                 ? "; if " + FormatNumber(gap) +
+                       " is its ratio to the tag size, as Kalibr's tagSpacing, give --gap " +
+                       FormatNumber(std::round(1e6 * gap * tag_size) / 1e6)
+                 : ""));
   }
-  if (first_id < 0 || first_id + static_cast<long>(columns) * rows > kNumTagIds) {
-    throw Error("board: columns x rows needs more tags than the family tag36h11 has (" +
-                std::to_string(kNumTagIds) + ")");
+  CheckAtLeast(first_id, 0, "board: first_id");
+  const long num_tags = static_cast<long>(columns) * rows;
+  if (first_id + num_tags > kNumTagIds) {
+    throw OptionError("board: columns and rows and first_id:",
+                      std::to_string(num_tags) + " tags from " + std::to_string(first_id) +
+                          " on are more than the family tag36h11 has (" +
+                          std::to_string(kNumTagIds) + ")");
   }
 }
 

@@ -5,6 +5,8 @@
 #include "invrender/selection.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
+#include "scene/photograph_name.h"
+#include "scene/text.h"
 
 #include <malloc.h>
 
@@ -40,11 +42,26 @@ std::vector<std::string> DropThoseWithFaultyMasks(const std::filesystem::path& f
   return faults;
 }
 
+// Those that cannot be used or were left out included: a table that names them is right.
+std::vector<PhotographName> AllNames(const Scene& scene) {
+  std::vector<PhotographName> names = NamesOf(scene.photographs);
+  for (const UnreadablePhotograph& unreadable : scene.unreadable) {
+    const Photograph& photograph = unreadable.photograph;
+    names.push_back({photograph.name, photograph.image_file.filename().string()});
+  }
+  for (const std::string& name : scene.left_out) names.push_back({name, ""});
+  std::sort(names.begin(), names.end(), [](const PhotographName& a, const PhotographName& b) {
+    return NaturalLess(a.name, b.name);
+  });
+  return names;
+}
+
 }  // namespace
 
 BakeOptions BakeArguments::Options() const {
   if (options.bits == 16 && format == "jpg") {
-    throw Error("a JPEG has 8 bits; give --format png, tif or exr with --bits 16");
+    throw CLI::ValidationError("--bits",
+                               "a JPEG has 8 bits; give --format png, tif or exr with --bits 16");
   }
   BakeOptions result = options;
   result.match_colour = !no_colour;
@@ -185,7 +202,7 @@ std::vector<std::string> NarrowPhotographs(const BakeArguments& arguments,
   }
   const std::filesystem::path pairs = scene.folder / "pairs.csv";
   if (std::filesystem::exists(pairs)) {
-    RestrictToPairs(pairs, scene.model, photographs, NamesOf(scene.photographs));
+    RestrictToPairs(pairs, scene.model, photographs, AllNames(scene));
   }
   if (!arguments.only.empty()) {
     RestrictToFaces(scene.model, FindFaces(scene.model, arguments.only), photographs);

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "calibrate/board.h"
 #include "cli/commands.h"
+#include "cli/json_output.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
@@ -32,11 +33,17 @@ struct BoardArguments {
 };
 
 int PrintBoard(const BoardArguments& arguments) {
+  arguments.board.Check();
   if (arguments.common.dry_run) {
-    std::printf("would draw the board into %s\n", arguments.print_file.c_str());
-    return kExitDone;
+    return TellDryRun(arguments.common,
+                      "draw the board into " + arguments.print_file.string(),
+                      {{"board", arguments.print_file.string()}});
   }
   WriteSrgb8(arguments.print_file, DrawBoard(arguments.board));
+  if (arguments.common.json) {
+    PrintJson({{"board", arguments.print_file.string()}});
+    return kExitDone;
+  }
   std::printf(
       "%s: print it without margins or fitting, mount it flat, and measure a black\n"
       "square's edge (--tag-size) and the white between two (--gap).\n",
@@ -96,11 +103,13 @@ int CalibrateFromPhotographs(const BoardArguments& arguments) {
   if (arguments.photographs.empty())
     throw CLI::RequiredError("photographs of the board, or --print,");
   if (arguments.lens_file.empty()) throw CLI::RequiredError("-o LENS_FILE");
+  if (!arguments.target_file) arguments.board.Check();
   if (arguments.common.dry_run) {
-    std::printf("would calibrate from %zu photographs and write %s\n",
-                arguments.photographs.size(),
-                arguments.lens_file.c_str());
-    return kExitDone;
+    return TellDryRun(
+        arguments.common,
+        "calibrate from " + std::to_string(arguments.photographs.size()) +
+            " photographs and write " + arguments.lens_file.string(),
+        {{"lens", arguments.lens_file.string()}, {"photographs", arguments.photographs.size()}});
   }
   const Progress progress = MakeProgress(arguments.common, "reading");
   std::vector<BoardPhotograph> photographs;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/option_range.h"
 
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -17,7 +18,7 @@ void AddCommonOptions(CLI::App* command, CommonOptions& options) {
   command->add_flag("--quiet", options.quiet, "no progress on stderr");
   command->add_flag("--dry-run", options.dry_run, "say what would be done, write nothing");
   command->add_option("--threads", options.threads, "threads to use; 0: every core")
-      ->check(CLI::NonNegativeNumber);
+      ->check(AtLeast(0));
   command->add_option("--seed", options.seed, "seed of everything that is drawn by chance")
       ->capture_default_str();
 }

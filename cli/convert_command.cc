@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/json_output.h"
 #include "cli/model_arguments.h"
+#include "cli/option_range.h"
 #include "scene/colmap_io.h"
 #include "scene/convert.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -39,18 +39,17 @@ ConvertResult Convert(const ConvertArguments& arguments) {
 
 int RunConvert(const ConvertArguments& arguments) {
   if (arguments.common.dry_run) {
-    std::printf("would convert %s to %s\n", arguments.input.c_str(), arguments.output.c_str());
-    return kExitDone;
+    return TellDryRun(arguments.common,
+                      "convert " + arguments.input + " to " + arguments.output,
+                      {{"input", arguments.input}, {"output", arguments.output}});
   }
   const ConvertResult result = Convert(arguments);
   for (const std::string& warning : result.warnings) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   }
   if (arguments.common.json) {
-    const nlohmann::ordered_json json = {
-        {"output", arguments.output}, {"summary", result.summary}, {"warnings", result.warnings}};
-    std::printf("%s\n",
-                json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+    PrintJson(
+        {{"output", arguments.output}, {"summary", result.summary}, {"warnings", result.warnings}});
   } else {
     std::printf("%s\n", result.summary.c_str());
   }
@@ -82,7 +81,7 @@ void AddConvertCommand(CLI::App& app, int& exit_status) {
       ->add_option("--lookat-distance",
                    arguments->lookat_distance,
                    "how far ahead of a COLMAP camera its look-at point is put, model's unit")
-      ->check(CLI::PositiveNumber)
+      ->check(Above(0))
       ->capture_default_str();
   AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/json_output.h"
 #include "cli/model_arguments.h"
+#include "cli/option_range.h"
 #include "datasets-synthetic/calibration_plot.h"
 #include "datasets-synthetic/error_plot.h"
 #include "datasets-synthetic/evaluate.h"
@@ -14,6 +16,8 @@
 
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -55,6 +59,10 @@ int EvaluateFound(const EvaluateArguments& arguments) {
   const Truth truth = ReadTruth(arguments.truth);
   const fs::path model_file =
       arguments.model.empty() ? FindModel(arguments.truth) : fs::path(arguments.model);
+  if (arguments.model.empty()) {
+    const auto others = DescribeOtherModels(model_file.parent_path(), model_file);
+    if (others) std::fprintf(stderr, "groundglass: %s\n", others->c_str());
+  }
   const ModelReading reading = ReadModel(model_file, arguments.model_arguments.Options());
   for (const std::string& warning : reading.warnings) {
     std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
@@ -85,10 +93,11 @@ int RunTrialsOfScene(const EvaluateArguments& arguments) {
   SceneOptions scene_options;
   if (!arguments.model.empty()) scene_options.model_file = arguments.model;
   scene_options.model = arguments.model_arguments.Options();
-  const Scene scene = ReadScene(arguments.found, scene_options);
   TrialOptions options = arguments.trials;
   options.num_trials = arguments.num_trials;
   options.seed = arguments.common.seed;
+  options.Check();
+  const Scene scene = ReadScene(arguments.found, scene_options);
   const std::vector<Trial> trials = RunTrials(
       scene, ReadTruth(arguments.truth), options, MakeProgress(arguments.common, "notebooks"));
   if (!arguments.plot_file.empty()) {
@@ -108,6 +117,19 @@ int RunTrialsOfScene(const EvaluateArguments& arguments) {
                                    : FormatTrialsTable(trials, options).c_str(),
              stdout);
   return kExitDone;
+}
+
+// Without having looked at any of it.
+int TellEvaluation(const EvaluateArguments& arguments) {
+  std::vector<std::string> files;
+  for (const std::string& file : {arguments.plot_file, arguments.calibration_file}) {
+    if (!file.empty()) files.push_back(file);
+  }
+  std::string words = "evaluate " + arguments.found + " against " + arguments.truth;
+  for (const std::string& file : files) words += " and write " + file;
+  return TellDryRun(arguments.common,
+                    words,
+                    {{"found", arguments.found}, {"truth", arguments.truth}, {"files", files}});
 }
 
 }  // namespace
@@ -130,6 +152,7 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
       "--trials",
       arguments->num_trials,
       "register FOUND, a scene folder, from this many notebooks drawn by chance");
+  trials->check(AtLeast(0));
   command
       ->add_option("--sigma-position",
                    arguments->trials.sigma_position,
@@ -163,6 +186,7 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
       ->needs(calibration);
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] {
+      if (arguments->common.dry_run) return TellEvaluation(*arguments);
       return arguments->num_trials > 0 ? RunTrialsOfScene(*arguments) : EvaluateFound(*arguments);
     });
   });

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
 #include "cli/commands.h"
+#include "cli/json_output.h"
 #include "cli/model_arguments.h"
 #include "cli/option_values.h"
 #include "cli/register_arguments.h"
@@ -160,6 +161,10 @@ int RunInvrender(const InvrenderArguments& arguments) {
   scene_options.views = arguments.views_folder;
   scene_options.exclude = arguments.bake.exclude;
   Scene scene = ReadScene(arguments.scene_folder, scene_options);
+  if (!arguments.model_file) {
+    const auto others = DescribeOtherModels(scene.folder, scene.model_file);
+    if (others) scene.warnings.push_back(*others);
+  }
   // Cameras from elsewhere have no tags to be odd.
   if (!arguments.views_folder) {
     for (const Advice& advice : FindOddities(scene, scene_options.model)) {
@@ -174,11 +179,15 @@ int RunInvrender(const InvrenderArguments& arguments) {
       NarrowPhotographs(arguments.bake, scene, photographs);
   unreadable.insert(unreadable.end(), mask_faults.begin(), mask_faults.end());
   if (arguments.common.dry_run) {
-    std::printf("would texture %zu faces from %zu photographs into %s\n",
-                scene.model.faces.size(),
-                photographs.size(),
-                arguments.out_folder.string().c_str());
-    return kExitDone;
+    return TellDryRun(arguments.common,
+                      "texture " + std::to_string(scene.model.faces.size()) + " faces from " +
+                          std::to_string(photographs.size()) + " photographs into " +
+                          arguments.out_folder.string(),
+                      {{"out", arguments.out_folder.string()},
+                       {"photographs", photographs.size()},
+                       {"faces", scene.model.faces.size()},
+                       {"unreadable", unreadable},
+                       {"warnings", scene.warnings}});
   }
   const fs::path& out = arguments.out_folder;
   const FolderLock lock = PrepareOutputFolder(out);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/json_output.h"
+#include "cli/option_fault.h"
 #include "cli/suggestion.h"
 #include "scene/error.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <csignal>
@@ -17,11 +17,7 @@ namespace {
 // One line for the person at the keyboard; an object for a program that asked for one.
 int Fail(int exit_status, const std::string& message, bool as_json) {
   std::fprintf(stderr, "groundglass: %s\n", message.c_str());
-  if (as_json) {
-    const nlohmann::ordered_json json = {{"error", message}, {"exit", exit_status}};
-    std::printf("%s\n",
-                json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
-  }
+  if (as_json) PrintJson({{"error", message}, {"exit", exit_status}});
   return exit_status;
 }
 
@@ -49,7 +45,7 @@ int main(int argc, char** argv) {
   AddExample(&app,
              "groundglass check hall -o hall-check    what is wrong, and what to do\n"
              "  groundglass run hall -o hall-out        the whole job\n"
-             "  groundglass run --help                  each command has its own help");
+             "  groundglass help run                    each command has its own help");
   int exit_status = kExitDone;
   AddRunCommand(app, exit_status);
   AddCheckCommand(app, exit_status);
@@ -60,21 +56,31 @@ int main(int argc, char** argv) {
   AddSynthCommand(app, exit_status);
   AddEvaluateCommand(app, exit_status);
   AddConvertCommand(app, exit_status);
-  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   if (words.empty()) {
     std::fputs(app.help().c_str(), stdout);
     return kExitWrongUsage;
+  }
+  // "help run" is "run --help".
+  if (words.front() == "help") {
+    words.erase(words.begin());
+    words.push_back("--help");
   }
   const bool as_json = std::find(words.begin(), words.end(), "--json") != words.end();
   if (const auto unknown = FindUnknownCommand(app, words)) {
     return Fail(kExitWrongUsage, WithoutProgramName(*unknown), as_json);
   }
   try {
-    app.parse(argc, argv);
+    // The last word first, as the library takes them.
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::Success& success) {
     return app.exit(success) == 0 ? kExitDone : kExitWrongUsage;
   } catch (const CLI::ParseError& error) {
     return Fail(kExitWrongUsage, WithoutProgramName(DescribeUsageError(app, error)), as_json);
+  } catch (const OptionError& error) {
+    const std::optional<std::string> usage = DescribeOptionFault(app, error);
+    return usage ? Fail(kExitWrongUsage, WithoutProgramName(*usage), as_json)
+                 : Fail(kExitWrongInput, error.what(), as_json);
   } catch (const std::exception& error) {
     return Fail(kExitWrongInput, error.what(), as_json);
   }

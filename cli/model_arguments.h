@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -23,6 +24,11 @@ struct ModelArguments {
   ModelOptions Options() const;
 };
 void AddModelOptions(CLI::App* command, ModelArguments& arguments);
+
+// In one line, which model of the folder is read where several lie in it, and how to choose
+// another; nothing if there is only one.
+std::optional<std::string> DescribeOtherModels(const std::filesystem::path& folder,
+                                               const std::filesystem::path& model_file);
 
 // "How far its edges may lie off" in words: "0.1 ft (0.03 m), as the model says".
 std::string DescribeTolerance(const PolygonModel& model, const ModelArguments& arguments);

@@ -109,6 +109,10 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
   options.only = arguments.only;
   options.exclude = not_needed;
   Scene scene = ReadScene(arguments.scene_folder, options);
+  if (!arguments.model_file) {
+    const auto others = DescribeOtherModels(scene.folder, scene.model_file);
+    if (others) scene.warnings.push_back(*others);
+  }
   if (!arguments.views_folder) {
     for (const Advice& advice : FindOddities(scene, options.model)) {
       scene.warnings.push_back(FormatAdvice(advice));

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "cli/check_report.h"
 #include "cli/commands.h"
+#include "cli/json_output.h"
 #include "cli/option_values.h"
 #include "cli/register_arguments.h"
 #include "cli/register_stages.h"
@@ -36,10 +37,13 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
       const Scene scene = ReadSceneForCommand(registering);
       const WarningsLast warnings(scene.warnings, arguments->common.quiet);
       if (arguments->common.dry_run) {
-        std::printf("would register %zu photographs into %s\n",
-                    scene.photographs.size(),
-                    registering.out_folder.string().c_str());
-        return kExitDone;
+        return TellDryRun(arguments->common,
+                          "register " + std::to_string(scene.photographs.size()) +
+                              " photographs into " + registering.out_folder.string(),
+                          {{"out", registering.out_folder.string()},
+                           {"photographs", scene.photographs.size()},
+                           {"faces", scene.model.faces.size()},
+                           {"warnings", scene.warnings}});
       }
       const FolderLock lock = PrepareOutputFolder(registering.out_folder);
       const StageInputs inputs = ReadRegistrationInputs(scene, arguments->options);
@@ -51,6 +55,7 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
       for (const char* stage : {kTextureStage, kTilesStage, kStillsStage, kReportStage}) {
         if (is_other) stages.KeepOnly(stage, "");
       }
+      TellChanged(stages, {kRegisterStage, kOverlayStage});
       stages.Write();
       const RegisteredScene registered =
           EnsureRegistered(scene, registering, arguments->common, key, stages);

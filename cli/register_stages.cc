@@ -44,6 +44,16 @@ std::optional<RegisteredScene> ReadRegistered(const Scene& scene, const fs::path
 
 }  // namespace
 
+void TellChanged(const OutputStages& stages, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    for (const std::string& file : stages.FindChanged(name)) {
+      std::fprintf(stderr,
+                   "groundglass: %s has changed since it was written; it is made again\n",
+                   file.c_str());
+    }
+  }
+}
+
 RegisteredScene EnsureRegistered(const Scene& scene,
                                  const RegisterArguments& arguments,
                                  const CommonOptions& common,

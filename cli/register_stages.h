@@ -6,6 +6,7 @@
 #include "scene/output_stages.h"
 
 #include <string>
+#include <vector>
 
 namespace groundglass {
 
@@ -13,6 +14,10 @@ namespace groundglass {
 // there already with this key is kept.
 constexpr const char* kRegisterStage = "register";
 constexpr const char* kOverlayStage = "overlays";
+
+// On stderr, the files of these stages that somebody has changed since they were written, which are
+// made again.
+void TellChanged(const OutputStages& stages, const std::vector<std::string>& names);
 
 // Corrected tags: views/, registration.json and cameras/.
 RegisteredScene EnsureRegistered(const Scene& scene,

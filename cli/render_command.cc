@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "cli/commands.h"
 #include "cli/model_arguments.h"
+#include "cli/option_range.h"
 #include "invrender/tiles.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
@@ -229,6 +230,9 @@ int RenderTiles(const RenderArguments& arguments) {
 }
 
 int RunRender(const RenderArguments& arguments) {
+  arguments.render.Check();
+  arguments.film.Check();
+  arguments.orbit.Check();
   if (IsTileRecord(arguments.model) || !FindTileFiles(arguments.model).empty()) {
     return RenderTiles(arguments);
   }
@@ -272,18 +276,18 @@ void AddRenderCommand(CLI::App& app, int& exit_status) {
   command->add_flag("--edges", arguments->render.edges, "the model's edges over the picture");
   command
       ->add_option("--width", arguments->width_px, "px; 1500 if neither width nor height is given")
-      ->check(CLI::Range(1, 16384));
+      ->check(FromTo(1, 16384));
   command
       ->add_option("--height", arguments->height_px, "px; else from the view's aspect (film: 16:9)")
-      ->check(CLI::Range(1, 16384));
+      ->check(FromTo(1, 16384));
   command->add_option("--supersampling", arguments->render.supersampling, "1 (fast) to 4 (fine)")
-      ->check(CLI::Range(1, 4))
+      ->check(FromTo(1, 4))
       ->capture_default_str();
   command->add_option("--seconds", arguments->seconds, "length of the film")
-      ->check(CLI::PositiveNumber)
+      ->check(Above(0))
       ->capture_default_str();
   command->add_option("--fps", arguments->film.frames_per_second, "frames a second")
-      ->check(CLI::Range(1.0, 240.0))
+      ->check(FromTo(1, 240))
       ->capture_default_str();
   command->add_option("--orbit-height", arguments->orbit.height_deg, "degrees above the model")
       ->capture_default_str();

@@ -3,6 +3,8 @@
 #include "cli/bake_arguments.h"
 #include "cli/check_report.h"
 #include "cli/commands.h"
+#include "cli/json_output.h"
+#include "cli/option_range.h"
 #include "cli/option_values.h"
 #include "cli/register_arguments.h"
 #include "cli/register_stages.h"
@@ -94,6 +96,15 @@ OutputStages OpenStages(const fs::path& out, const Manifest& manifest, const Sta
   return stages;
 }
 
+// They are taken on the way from one photograph's viewpoint to the next, so it takes two.
+std::string WhyNoStills(const std::vector<BakePhotograph>& photographs, const fs::path& out) {
+  return "no pictures from new viewpoints: they are drawn on the way from one photograph's "
+         "viewpoint "
+         "to the next, and only " +
+         photographs.front().name + " has a camera; groundglass render " + out.string() +
+         " --view FILE.view -o still.png draws one from wherever you like";
+}
+
 void PrintPlaces(const fs::path& out, const ImageSize& stills) {
   const std::pair<const char*, const char*> places[] = {{"corrected tags", "views"},
                                                         {"overlays", "overlays"},
@@ -123,11 +134,14 @@ int Run(const RunArguments& arguments) {
   const WarningsLast warnings(scene.warnings, common.quiet);
   CheckNarrowing(arguments, scene);
   if (common.dry_run) {
-    std::printf("would register %zu photographs, bake %zu faces and write %s\n",
-                scene.photographs.size(),
-                scene.model.faces.size(),
-                out.string().c_str());
-    return kExitDone;
+    return TellDryRun(common,
+                      "register " + std::to_string(scene.photographs.size()) +
+                          " photographs, bake " + std::to_string(scene.model.faces.size()) +
+                          " faces and write " + out.string(),
+                      {{"out", out.string()},
+                       {"photographs", scene.photographs.size()},
+                       {"faces", scene.model.faces.size()},
+                       {"warnings", scene.warnings}});
   }
   const FolderLock lock = PrepareOutputFolder(out);
   const StageInputs inputs = ReadRegistrationInputs(scene, arguments.options.registering);
@@ -144,6 +158,8 @@ int Run(const RunArguments& arguments) {
                  MakeManifest("run", common, {inputs, texture_inputs, tiles_inputs, stills_inputs}),
                  keys);
 
+  TellChanged(stages, {kRegisterStage, kOverlayStage, kTextureStage, kStillsStage});
+  if (baking.tiles || baking.tile_record) TellChanged(stages, {kTilesStage});
   const RegisteredScene registered =
       EnsureRegistered(scene, registering, common, keys.registration, stages);
   const std::vector<Registration>& registrations = registered.registrations;
@@ -166,6 +182,7 @@ int Run(const RunArguments& arguments) {
     is_narrowed = true;
   });
   ImageSize stills_size;
+  std::vector<std::string> remarks;
   if (photographs.empty()) {
     std::fprintf(stderr,
                  "groundglass: no photograph is left to texture with: none of those that are not "
@@ -185,6 +202,9 @@ int Run(const RunArguments& arguments) {
       if (!stages.IsComplete(kTextureStage, keys.texture)) return;
       stills_size =
           EnsureStills(registrations, arguments.num_stills, common, out, keys.stills, stages);
+      if (stills_size.width == 0 && arguments.num_stills > 0) {
+        remarks.push_back(WhyNoStills(photographs, out));
+      }
     });
   }
   attempts.Try("report", [&] {
@@ -194,7 +214,9 @@ int Run(const RunArguments& arguments) {
   });
 
   if (common.json) {
-    PrintRegistrationsJson(registered, scene.warnings, attempts.failures());
+    std::vector<std::string> told = scene.warnings;
+    told.insert(told.end(), remarks.begin(), remarks.end());
+    PrintRegistrationsJson(registered, told, attempts.failures());
   } else {
     PrintVerdictCounts(registrations, scene.warnings.size());
     PrintPlaces(out, stills_size);
@@ -202,6 +224,7 @@ int Run(const RunArguments& arguments) {
       std::printf("NOT FINISHED     %s\n", failure.c_str());
     }
   }
+  PrintWarnings(remarks);
   PrintWarnings(registered.warnings);
   PrintWarnings(mask_faults);
   if (!attempts.failures().empty()) return kExitWrongInput;
@@ -222,7 +245,7 @@ void AddRunCommand(CLI::App& app, int& exit_status) {
   options.stills = OptionsAddedBy(command, [&] {
     command->add_option("--stills", arguments->num_stills, "pictures from new viewpoints")
         ->capture_default_str()
-        ->check(CLI::Range(0, 100));
+        ->check(FromTo(0, 100));
   });
   const std::vector<const CLI::Option*> common =
       OptionsAddedBy(command, [&] { AddCommonOptions(command, arguments->common); });

@@ -38,12 +38,6 @@ std::vector<std::string> OptionNames(const CLI::App& app) {
   return names;
 }
 
-// The command that was parsed last: "calibrate board" of its words.
-const CLI::App& InnermostCommand(const CLI::App& app) {
-  const std::vector<CLI::App*> parsed = app.get_subcommands();
-  return parsed.empty() ? app : InnermostCommand(*parsed.back());
-}
-
 std::string WholeName(const CLI::App& command) {
   const CLI::App* parent = command.get_parent();
   return (parent ? WholeName(*parent) + " " : "") + command.get_name();
@@ -71,28 +65,33 @@ std::optional<std::string> FindNearest(const std::string& word,
   return nearest;
 }
 
+const CLI::App& InnermostCommand(const CLI::App& app) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  return parsed.empty() ? app : InnermostCommand(*parsed.back());
+}
+
+std::string WithHelp(const CLI::App& command, const std::string& message) {
+  return WholeName(command) + ": " + message + " (" + WholeName(command) + " --help)";
+}
+
 std::string DescribeUsageError(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = InnermostCommand(app);
-  const std::string where = WholeName(command) + ": ";
-  std::string message;
+  std::string message = error.what();
   const std::vector<std::string> extras = command.remaining();
+  const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
+    return word.size() > 1 && word.front() == '-';
+  });
   // Its name is the command's in this version of the library.
   const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
-  if (is_extra && !extras.empty()) {
-    const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
-      return word.size() > 1 && word.front() == '-';
-    });
-    if (option == extras.end()) {
-      message = where + "'" + extras.front() + "' is one word too many";
-    } else {
-      const std::string name = option->substr(0, option->find('='));
-      message = where + "there is no option " + name + Meant(name, OptionNames(command));
-    }
-  } else {
-    message = where + error.what();
+  if (option != extras.end()) {
+    // Whatever else is wrong may come of it: "-o is required" after --ouput.
+    const std::string name = option->substr(0, option->find('='));
+    message = "there is no option " + name + Meant(name, OptionNames(command));
+  } else if (is_extra && !extras.empty()) {
+    message = "'" + extras.front() + "' is one word too many";
   }
   std::replace(message.begin(), message.end(), '\n', ' ');
-  return message + " (" + WholeName(command) + " --help)";
+  return WithHelp(command, message);
 }
 
 std::optional<std::string> FindUnknownCommand(const CLI::App& app,
@@ -103,10 +102,12 @@ std::optional<std::string> FindUnknownCommand(const CLI::App& app,
     if (known.empty() || word == "--help" || word == "-h") return std::nullopt;
     if (word.empty() || word.front() == '-') continue;
     if (std::find(known.begin(), known.end(), word) == known.end()) {
+      std::vector<std::string> candidates = known;
+      if (command == &app) candidates.emplace_back("help");
       std::string list;
       for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-      return WholeName(*command) + ": there is no command '" + word + "'" + Meant(word, known) +
-             " (there are " + list + ")";
+      return WholeName(*command) + ": there is no command '" + word + "'" +
+             Meant(word, candidates) + " (there are " + list + ")";
     }
     command = command->get_subcommand(word);
   }

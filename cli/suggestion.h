@@ -14,6 +14,11 @@ namespace groundglass {
 std::optional<std::string> FindNearest(const std::string& word,
                                        const std::vector<std::string>& known);
 
+// The command that was parsed last: "calibrate board" of its words.
+const CLI::App& InnermostCommand(const CLI::App& app);
+// "groundglass run: MESSAGE (groundglass run --help)".
+std::string WithHelp(const CLI::App& command, const std::string& message);
+
 // What is wrong with a command line that could not be parsed, in one line: the word that is at
 // fault, and what it was most likely meant to be.
 std::string DescribeUsageError(const CLI::App& app, const CLI::ParseError& error);

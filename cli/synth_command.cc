@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/json_output.h"
+#include "cli/option_range.h"
 #include "datasets-synthetic/synth.h"
-#include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/view_io.h"
 
@@ -30,22 +31,28 @@ struct SynthArguments {
 void ParseSize(const std::string& size, SynthRecipe& recipe) {
   char rest = 0;
   if (std::sscanf(size.c_str(), "%dx%d%c", &recipe.width_px, &recipe.height_px, &rest) != 2) {
-    throw Error("--size " + size + ": expected WIDTHxHEIGHT, as 1500x1000");
+    throw CLI::ValidationError("--size", "expected WIDTHxHEIGHT, as 1500x1000, not " + size);
   }
 }
 
 // The presets, and a picture of each in a folder if one is named.
-void PrintPresets(const std::filesystem::path& pictures) {
+void PrintPresets(const CommonOptions& common, const std::filesystem::path& pictures) {
+  nlohmann::ordered_json presets = nlohmann::ordered_json::array();
   for (const SynthPreset& preset : ListSynthPresets()) {
-    std::printf("%-10s %s\n", preset.name.c_str(), preset.description.c_str());
-    if (pictures.empty()) continue;
+    if (!common.json) {
+      std::printf("%-10s %s\n", preset.name.c_str(), preset.description.c_str());
+    }
+    presets.push_back({{"name", preset.name}, {"description", preset.description}});
+    if (pictures.empty() || common.dry_run) continue;
     SynthRecipe recipe = PresetRecipe(preset.name);
     recipe.width_px = 480;
     recipe.height_px = 320;
     const std::filesystem::path file = pictures / (preset.name + ".jpg");
     WriteSrgb8(file, RenderPresetPicture(recipe));
-    std::printf("%-10s %s\n", "", file.c_str());
+    if (!common.json) std::printf("%-10s %s\n", "", file.c_str());
+    presets.back()["picture"] = file.string();
   }
+  if (common.json) PrintJson({{"presets", presets}});
 }
 
 int RunSynth(const SynthArguments& arguments, bool has_seed) {
@@ -92,12 +99,15 @@ void AddSynthCommand(CLI::App& app, int& exit_status) {
   command->add_option("preset", arguments->preset, "which scene; --list shows them");
   command->add_option("-o,--out", arguments->out, "the scene folder to make");
   command->add_option("--size", arguments->size, "of the photographs, as 1500x1000");
-  command->add_option("--views", arguments->num_views, "how many of the planned views; 0 for all");
+  command->add_option("--views", arguments->num_views, "how many of the planned views; 0 for all")
+      ->check(AtLeast(0));
   command->add_option("--recipe", arguments->recipe_file, "JSON file that overrides the preset");
-  command->add_option("--blunders",
-                      arguments->num_blunders,
-                      "tags that hold a blunder: swapped coordinates, a wrong sign, another "
-                      "photograph's numbers");
+  command
+      ->add_option("--blunders",
+                   arguments->num_blunders,
+                   "tags that hold a blunder: swapped coordinates, a wrong sign, another "
+                   "photograph's numbers")
+      ->check(AtLeast(0));
   command->add_flag("--list", arguments->list, "list the presets");
   command->add_option(
       "--pictures", arguments->pictures, "with --list: a picture of each preset into this folder");
@@ -106,7 +116,7 @@ void AddSynthCommand(CLI::App& app, int& exit_status) {
   command->callback([command, arguments, &exit_status] {
     if (arguments->list) {
       exit_status = RunWithThreads(arguments->common, [&] {
-        PrintPresets(arguments->pictures);
+        PrintPresets(arguments->common, arguments->pictures);
         return kExitDone;
       });
       return;

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "datasets-synthetic/recipe.h"
 
+#include "scene/check_option.h"
 #include "scene/error.h"
 
 #include <nlohmann/json.hpp>
@@ -67,8 +68,9 @@ Json::json_pointer Pointer(const std::string& path) { return Json::json_pointer(
 
 void SynthRecipe::Check() const {
   if (width_px < 16 || height_px < 16 || width_px > 20000 || height_px > 20000) {
-    throw Error("a synthetic picture must be 16 to 20000 px each way, not " +
-                std::to_string(width_px) + "x" + std::to_string(height_px));
+    throw OptionError("recipe fields width and height:",
+                      "a synthetic picture must be 16 to 20000 px each way, not " +
+                          std::to_string(width_px) + "x" + std::to_string(height_px));
   }
   VisitFields(*this, [](const std::string& path, const auto& value) {
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {

@@ -54,6 +54,15 @@ std::string NoSuchFace(const PolygonModel& model, const std::string& word) {
          std::to_string(HighestFaceNumber(model)) + ", and names";
 }
 
+// " s1 s2 s3", and how many more if there are many.
+std::string ListNames(std::span<const PhotographName> names) {
+  constexpr size_t kMost = 30;
+  std::string all;
+  for (size_t i = 0; i < std::min(names.size(), kMost); ++i) all += " " + names[i].name;
+  if (names.size() > kMost) all += " and " + std::to_string(names.size() - kMost) + " more";
+  return all;
+}
+
 }  // namespace
 
 std::vector<int> FindFaces(const PolygonModel& model, const std::vector<std::string>& words) {
@@ -136,7 +145,8 @@ void RestrictToPairs(const std::filesystem::path& file,
     try {
       photograph = FindPhotograph(image, names);
       if (!photograph && !known.empty() && !FindPhotograph(image, known)) {
-        throw Error("no photograph is called " + Quote(image) + NearestName(image, known));
+        throw Error("no photograph is called " + Quote(image) + NearestName(image, known) +
+                    "; there are" + ListNames(known));
       }
     } catch (const Error& error) {
       throw Error(file, row.line, error.what());

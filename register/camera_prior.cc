@@ -6,6 +6,7 @@
 #include "scene/error.h"
 #include "scene/model_sigma.h"
 #include "scene/symmetric_eigen.h"
+#include "scene/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +29,9 @@ void RequireParameterNames(const std::vector<std::string>& names, const std::str
     if (name == "shift") continue;
     if (std::find(kCameraParameterNames.begin(), kCameraParameterNames.end(), name) ==
         kCameraParameterNames.end()) {
-      throw Error("option " + option + ": no parameter is called '" + name +
-                  "'; there are x y z yaw pitch roll v a shift shift_x shift_y k1");
+      throw OptionError("option " + option + ":",
+                        "no parameter is called '" + name +
+                            "'; there are x y z yaw pitch roll v a shift shift_x shift_y k1");
     }
   }
 }
@@ -54,7 +56,8 @@ TagSigmas SigmasThatHold(TagSigmas sigmas, const std::vector<std::string>& free)
 void PriorOptions::Check() const {
   const auto require_positive = [](double value, const char* name) {
     if (!(value > 0 && std::isfinite(value))) {
-      throw Error(std::string("option ") + name + ": a standard deviation must be above 0");
+      throw OptionError(std::string("option ") + name + ":",
+                        "a standard deviation must be above 0, not " + FormatNumber(value));
     }
   };
   require_positive(position_m.value_or(kPosition_m), "sigma-position");
@@ -73,7 +76,9 @@ void PriorOptions::Check() const {
   RequireParameterNames(lock, "lock");
   RequireParameterNames(free, "free");
   for (const std::string& name : free) {
-    if (Contains(lock, name)) throw Error("options lock and free: '" + name + "' is in both");
+    if (Contains(lock, name)) {
+      throw OptionError("options lock and free:", "'" + name + "' is in both");
+    }
   }
 }
 

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "register/overrule.h"
 
-#include "scene/error.h"
+#include "scene/check_option.h"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace groundglass {
 void OverruleOptions::Check() const {
   for (const std::string& name : accept) {
     if (std::ranges::count(reject, name) > 0) {
-      throw Error("options accept and reject: photograph '" + name + "' is in both");
+      throw OptionError("options accept and reject:", "photograph '" + name + "' is in both");
     }
   }
 }

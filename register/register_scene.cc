@@ -3,6 +3,7 @@
 #include "register/register_scene.h"
 
 #include "register/refine_accepted.h"
+#include "scene/error.h"
 #include "scene/ignore_mask.h"
 #include "scene/image_io.h"
 #include "scene/select_photographs.h"

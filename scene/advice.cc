@@ -2,15 +2,27 @@
 // Part of Groundglass.
 #include "scene/advice.h"
 
+#include "scene/advice_judge.h"
 #include "scene/advice_parts.h"
 
 #include <array>
 #include <cstdio>
+#include <optional>
 
 namespace groundglass {
 
 std::string FormatAdvice(const Advice& advice) {
   return advice.subject + ": " + advice.message + "; " + advice.remedy;
+}
+
+std::string ShellWord(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  const std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,:@%=";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
 std::string TagFile(const Scene& scene, const Photograph& photograph) {
@@ -57,17 +69,25 @@ std::vector<Advice> FindOddities(const Scene& scene,
                                  const ModelOptions& options,
                                  bool with_pictures) {
   std::vector<Advice> found;
-  if (scene.model.faces.empty()) return found;
+  if (scene.model.faces.empty()) {
+    AdviseOnUnreadModel(scene, options, found);
+    return found;
+  }
   const Visibility visibility(scene.model);
   AdviceContext context{scene, options, ComputeBounds(scene.model), visibility, {}, found};
   for (const Photograph& photograph : scene.photographs) {
     context.standpoints.push_back(
         FindStandpoint(context.bounds, visibility, scene.model, photograph.tag, photograph.size));
   }
-  const Misreading misreading = AdviseOnReading(context);
+  std::optional<PictureJudge> pictures;
+  if (with_pictures) pictures.emplace(scene);
+  const PictureJudge* judge = with_pictures ? &*pictures : nullptr;
+  const Misreading misreading = AdviseOnReading(context, judge);
   AdviseOnModel(context, misreading);
   // One cause, one advice: what a model that was misread does to its tags and pictures is no news.
-  const bool is_misread = misreading != Misreading::kNone || AdviseOnBacks(context, with_pictures);
+  const bool is_misread =
+      misreading != Misreading::kNone || AdviseOnBacks(context, judge) ||
+      (judge && (AdviseOnMirror(context, *judge) || AdviseOnDatum(context, *judge)));
   if (!is_misread) AdviseOnTags(context);
   AdviseOnFrames(context);
   if (!is_misread && with_pictures) AdviseOnPictures(context);

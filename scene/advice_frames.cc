@@ -13,16 +13,38 @@ namespace {
 
 // NTSC frames have pixels 1.1 from square; beyond this somebody has turned something.
 constexpr double kOddAspect = 1.3;
+// Of frames of one lens.
+constexpr double kSameAngle_deg = 0.05;
+constexpr double kSameShape = 0.03;
 
 bool Suits(double tag_aspect, double picture_aspect) {
   const double ratio = tag_aspect / picture_aspect;
   return ratio <= kOddAspect && ratio >= 1 / kOddAspect;
 }
 
+bool SuitsPicture(const Photograph& photograph) {
+  return Suits(photograph.tag.aspect,
+               static_cast<double>(photograph.size.width) / photograph.size.height);
+}
+
+// A photograph with the same view angle whose tag suits this one's picture: `a` is wrong then, and
+// `v` is not.
+bool HasTwinOfItsShape(const AdviceContext& context, const Photograph& photograph) {
+  const double aspect = static_cast<double>(photograph.size.width) / photograph.size.height;
+  return std::any_of(context.scene.photographs.begin(),
+                     context.scene.photographs.end(),
+                     [&](const Photograph& other) {
+                       return &other != &photograph && SuitsPicture(other) &&
+                              std::abs(other.tag.aspect / aspect - 1) < kSameShape &&
+                              std::abs(other.tag.view_angle_deg - photograph.tag.view_angle_deg) <
+                                  kSameAngle_deg;
+                     });
+}
+
 void AdviseOnAspect(const AdviceContext& context, const Photograph& photograph) {
   const double tag_aspect = photograph.tag.aspect;
   const double aspect = static_cast<double>(photograph.size.width) / photograph.size.height;
-  if (Suits(tag_aspect, aspect)) return;
+  if (SuitsPicture(photograph)) return;
   const std::string picture = photograph.image_file.filename().string();
   std::string message = "aspect " + FormatNumber(tag_aspect) + " does not suit " + picture +
                         " of " + std::to_string(photograph.size.width) + " x " +
@@ -40,6 +62,9 @@ void AdviseOnAspect(const AdviceContext& context, const Photograph& photograph) 
           picture + "); if it stands upright, write a " +
           FormatNumber(std::round(1000 * aspect) / 1000) +
           " and in v the angle across the upright frame";
+    } else if (HasTwinOfItsShape(context, photograph)) {
+      remedy += ", as in the other tags with v " + FormatNumber(photograph.tag.view_angle_deg) +
+                "; if the picture lies on its side when it is shown, turn it by 90 degrees instead";
     } else {
       message += "; is the picture turned?";
       remedy = "turn it by 90 degrees until it stands as it was taken, or write a " +
@@ -58,13 +83,12 @@ double AcrossFrom(double angle_deg, double aspect) {
 // An upright photograph with the very view angle of those that lie: v is the angle across, and a
 // camera that is turned upright shows less across.
 void AdviseOnUprightAngles(const AdviceContext& context) {
-  constexpr double kSameAngle_deg = 0.05;
-  constexpr double kSameShape = 0.03;
   std::vector<std::string> names;
   const Photograph* first = nullptr;
   for (const Photograph& upright : context.scene.photographs) {
     const ViewTag& tag = upright.tag;
-    if (tag.aspect > 0.9) continue;
+    // One that does not suit its own picture is told by itself.
+    if (tag.aspect > 0.9 || !SuitsPicture(upright)) continue;
     const bool has_twin = std::any_of(
         context.scene.photographs.begin(), context.scene.photographs.end(), [&](const auto& lying) {
           return std::abs(lying.tag.view_angle_deg - tag.view_angle_deg) < kSameAngle_deg &&

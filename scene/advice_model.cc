@@ -109,46 +109,55 @@ void AdviseOnSize(const AdviceContext& context, bool with_eyes) {
   }
 }
 
-// Numbers that went through single precision are all multiples of its step at their size; numbers
-// that somebody measured are not.
-void AdviseOnRaster(const AdviceContext& context) {
+// A unit that was stated and cannot well be: cameras all around the building stand at about the
+// same height and look up, as people do from the ground, but at a height where nobody stands. From
+// roofs, masts and drones they look down, or stand at different heights.
+void AdviseOnStatedUnit(const AdviceContext& context) {
+  constexpr size_t kFewest = 4;
+  constexpr size_t kFewestSides = 3;
+  constexpr double kMost = 0.7;
+  constexpr double kAlike = 1.3;  // between the heights, from the lowest fifth to the middle
+  constexpr double kLowestDoubtful_m = 0.7;
+  constexpr double kHighestDoubtful_m = 3.5;
   const PolygonModel& model = context.scene.model;
-  const double metres = MetresPerUnit(model.unit);
-  constexpr std::array<const char*, 3> kAxes = {"x (east)", "y (north)", "z (up)"};
-  std::string axes;
-  double worst_step = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    double largest = 0;
-    bool is_single = true;
-    std::set<double> values;
-    for (const Eigen::Vector3d& point : model.points_in_world) {
-      const double value = point[axis];
-      largest = std::max(largest, std::abs(value));
-      is_single = is_single && static_cast<double>(static_cast<float>(value)) == value;
-      if (values.size() < 8) values.insert(value);
-    }
-    const float single = static_cast<float>(largest);
-    const double step =
-        static_cast<double>(std::nextafter(single, std::numeric_limits<float>::max())) -
-        static_cast<double>(single);
-    if (!is_single || values.size() < 4 || step * metres < 0.01) continue;
-    axes += (axes.empty() ? "" : ", ") + std::string(kAxes[static_cast<size_t>(axis)]);
-    worst_step = std::max(worst_step, step);
+  if (model.is_unit_assumed || IsGltf(context)) return;
+  std::vector<double> heights;
+  std::set<std::string> sides;
+  size_t num_up = 0;
+  for (size_t i = 0; i < context.standpoints.size(); ++i) {
+    const Standpoint& standpoint = context.standpoints[i];
+    const ViewTag& tag = context.scene.photographs[i].tag;
+    if (!IsPlausible(standpoint)) continue;
+    heights.push_back(standpoint.position_in_site.z() - context.bounds.min.z());
+    sides.insert(standpoint.bearing);
+    num_up += tag.lookat_in_site.z() > tag.position_in_site.z() ? 1 : 0;
   }
-  if (axes.empty()) return;
+  const size_t count = heights.size();
+  if (count < kFewest || sides.size() < kFewestSides || num_up < kMost * count) return;
+  std::sort(heights.begin(), heights.end());
+  const double eye = heights[count / 2];
+  const double metres = MetresPerUnit(model.unit);
+  if (heights.front() <= 0 || heights[count * 7 / 10] > kAlike * heights[count / 5]) return;
+  if (eye * metres > kLowestDoubtful_m && eye * metres < kHighestDoubtful_m) return;
+  const std::optional<LengthUnit> likely = FindLikelyUnit(context.bounds.Diagonal(), eye);
+  if (!likely || *likely == model.unit) return;
   context.Add(Advice::Severity::kDetail,
               context.scene.model_file.string(),
-              "the coordinates in " + axes + " lie on a raster of " +
-                  FormatLength(worst_step, model.unit) +
-                  ": they were saved in single precision, which has no more digits at that size",
-              "move the model near its origin before it is saved (and say where that is in '% "
-              "origin:'), or save it with double precision");
+              "the cameras stand about " + FormatLength(eye, model.unit) +
+                  " above the model's foot and look up, on all sides of it, where hardly anybody "
+                  "holds a camera; its unit, " +
+                  UnitName(model.unit) + ", is stated and may be wrong",
+              "in " + UnitName(*likely) + " it would be " +
+                  FormatNumber(std::round(eye * MetresPerUnit(*likely) * 10) / 10) +
+                  " m: if its numbers are in " + UnitName(*likely) + ", give --unit " +
+                  UnitName(*likely));
 }
 
 }  // namespace
 
 void AdviseOnModel(const AdviceContext& context, Misreading misreading) {
   if (misreading != Misreading::kOfUnit) AdviseOnSize(context, misreading == Misreading::kNone);
+  if (misreading == Misreading::kNone && context.found.empty()) AdviseOnStatedUnit(context);
   AdviseOnRaster(context);
 }
 

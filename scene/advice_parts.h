@@ -5,11 +5,13 @@
 #include "scene/advice.h"
 #include "scene/standpoint.h"
 
-#include <optional>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace groundglass {
+
+class PictureJudge;
 
 // What the parts of FindOddities share.
 struct AdviceContext {
@@ -28,6 +30,8 @@ struct AdviceContext {
   }
 };
 
+// A path as a shell takes it, quoted if need be.
+std::string ShellWord(const std::filesystem::path& path);
 // The file that a photograph's tag stands in.
 std::string TagFile(const Scene& scene, const Photograph& photograph);
 // "s1, s2, s3 and 4 more".
@@ -43,20 +47,26 @@ bool IsPlausible(const Standpoint& standpoint);
 // exchanged. Not kNone if one of these is clearly meant, or most tags are implausible for no reason
 // that is known here; single tags are then no news.
 enum class Misreading { kNone, kOfUnit, kOther };
-Misreading AdviseOnReading(const AdviceContext& context);
+Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* judge);
 // The model by itself: its size and unit (unless that is told already), its coordinates' steps.
+void AdviseOnRaster(const AdviceContext& context);
 void AdviseOnModel(const AdviceContext& context, Misreading misreading);
 // Faces that show their backs: they run clockwise, or the model is mirrored about a line that its
-// tags suit as well, which the pictures tell if they are looked at. True if that is so.
-bool AdviseOnBacks(const AdviceContext& context, bool with_pictures);
+// tags suit as well, which the pictures tell if there is a judge. True if that is so.
+bool AdviseOnBacks(const AdviceContext& context, const PictureJudge* judge);
+// A model that shows its fronts and is mirrored all the same, as the pictures tell. True if so.
+bool AdviseOnMirror(const AdviceContext& context, const PictureJudge& judge);
+// All heights in the tags off by the same, as the pictures tell. True if so.
+bool AdviseOnDatum(const AdviceContext& context, const PictureJudge& judge);
+// The steps of the coordinates of a model whose faces could not be read.
+void AdviseOnUnreadModel(const Scene& scene,
+                         const ModelOptions& options,
+                         std::vector<Advice>& found);
 // Each tag by itself.
 void AdviseOnTags(const AdviceContext& context);
 // Shape and turn of the pictures against their tags.
 void AdviseOnFrames(const AdviceContext& context);
 // What the pictures show: turned by 180 degrees, mirrored, the view angle of the other side.
 void AdviseOnPictures(const AdviceContext& context);
-// Whether the pictures' edges lie on a model that shows its backs as `mirrored` has it, or as it
-// was read. None if they suit either.
-std::optional<bool> FindWhetherMirrored(const AdviceContext& context, const OtherReading& mirrored);
 
 }  // namespace groundglass

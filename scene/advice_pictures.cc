@@ -139,63 +139,7 @@ bool IsTold(const AdviceContext& context, const std::string& file) {
   });
 }
 
-// A model that was read with its backs in sight, read otherwise, with its fronts there.
-PolygonModel WithFronts(PolygonModel model, const OtherReading& reading) {
-  for (Eigen::Vector3d& point : model.points_in_world) {
-    point = reading.linear * point + reading.offset;
-  }
-  if (reading.flips_faces) return model;
-  for (Face& face : model.faces) std::reverse(face.points.begin(), face.points.end());
-  return model;
-}
-
-// How the edges of a model fit each picture; 0 where that cannot be told.
-std::vector<double> FitPictures(const PolygonModel& model,
-                                const std::vector<Photograph>& photographs) {
-  const Visibility visibility(model);
-  const std::vector<ModelEdge> edges = FindModelEdges(model);
-  std::vector<double> fits(photographs.size(), 0.0);
-  tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
-    try {
-      const Photograph& photograph = photographs[i];
-      fits[i] =
-          EdgeFit(ReadGrey8(photograph.image_file))
-              .Score(model,
-                     edges,
-                     visibility,
-                     CameraFromTag(photograph.tag, photograph.size.width, photograph.size.height));
-    } catch (const Error&) {
-      // Told by those who read it for its own sake.
-    }
-  });
-  return fits;
-}
-
 }  // namespace
-
-std::optional<bool> FindWhetherMirrored(const AdviceContext& context,
-                                        const OtherReading& mirrored) {
-  const std::vector<Photograph>& photographs = context.scene.photographs;
-  const std::vector<double> as_read = FitPictures(WithFronts(context.scene.model, {}), photographs);
-  const std::vector<double> otherwise =
-      FitPictures(WithFronts(context.scene.model, mirrored), photographs);
-  double sum_of_leads = 0;
-  int num_better = 0;
-  int total = 0;
-  for (size_t i = 0; i < photographs.size(); ++i) {
-    if (as_read[i] == 0 || otherwise[i] == 0) continue;
-    const double lead = otherwise[i] - as_read[i];
-    sum_of_leads += lead;
-    num_better += lead > 0 ? 1 : 0;
-    ++total;
-  }
-  const auto is_clear = [&](int count, double sum) {
-    return total >= 3 && count >= kMostPictures * total && sum > kMeanLead * total;
-  };
-  if (is_clear(num_better, sum_of_leads)) return true;
-  if (is_clear(total - num_better, -sum_of_leads)) return false;
-  return std::nullopt;
-}
 
 void AdviseOnPictures(const AdviceContext& context) {
   const std::vector<Photograph>& photographs = context.scene.photographs;
@@ -227,7 +171,11 @@ void AdviseOnPictures(const AdviceContext& context) {
                   std::string("with ") + fits[i].slip->name + " it would");
     }
     for (const Alternative& alternative : kAlternatives) {
-      if (HasClearSlip(fits[i]) || !IsClearlyMeant(fits[i], alternative)) continue;
+      // A wrong tag makes a right picture look wrong.
+      if (HasClearSlip(fits[i]) || IsTold(context, tag_file) ||
+          !IsClearlyMeant(fits[i], alternative)) {
+        continue;
+      }
       context.Add(Advice::Severity::kDetail,
                   photographs[i].image_file.string(),
                   "its edges suit the model better if " + std::string(alternative.message),

@@ -79,13 +79,17 @@ class Descriptor {
   int descriptor_;
 };
 
+void MakeFolderOf(const fs::path& file) {
+  if (!file.has_parent_path()) return;
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error) throw Error(file.parent_path(), "cannot make this folder: " + error.message());
+}
+
 template <typename Write>
 void WriteBesideAndRename(const fs::path& file, const Write& write) {
   std::error_code error;
-  if (file.has_parent_path()) {
-    fs::create_directories(file.parent_path(), error);
-    if (error) throw Error(file.parent_path(), "cannot make this folder: " + error.message());
-  }
+  MakeFolderOf(file);
   const fs::path temporary = TemporaryName(file);
   try {
     write(temporary);
@@ -106,6 +110,31 @@ bool IsTemporaryName(const fs::path& file) {
 
 void WriteFileAtomically(const fs::path& file, std::string_view bytes) {
   StreamFileAtomically(file, [&](const ByteSink& append) { append(bytes); });
+}
+
+void WriteFilesAtomically(const std::vector<FileToWrite>& files) {
+  std::vector<fs::path> temporary_names;
+  std::error_code error;
+  try {
+    for (const FileToWrite& each : files) {
+      MakeFolderOf(each.file);
+      // What cannot be replaced is found before the first one is.
+      if (fs::is_directory(each.file, error)) {
+        throw Error(each.file, "cannot write here: a folder has this name");
+      }
+      temporary_names.push_back(TemporaryName(each.file));
+      Descriptor out(each.file, temporary_names.back(), O_WRONLY | O_CREAT | O_TRUNC);
+      out.Write(each.bytes);
+      out.Finish();
+    }
+    for (size_t i = 0; i < files.size(); ++i) {
+      fs::rename(temporary_names[i], files[i].file, error);
+      if (error) throw Error(files[i].file, "cannot write here: " + error.message());
+    }
+  } catch (...) {
+    for (const fs::path& temporary : temporary_names) fs::remove(temporary, error);
+    throw;
+  }
 }
 
 void StreamFileAtomically(const fs::path& file,

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,14 @@ namespace groundglass {
 // that was there. Folders are made as needed. All throw Error, and leave nothing behind then.
 
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes);
+
+// Files that are of use together only: none takes its place before every byte of all of them is on
+// the disk.
+struct FileToWrite {
+  std::filesystem::path file;
+  std::string bytes;
+};
+void WriteFilesAtomically(const std::vector<FileToWrite>& files);
 
 // Encoded bytes as the writers take them.
 inline std::string_view AsText(const std::vector<unsigned char>& bytes) {

@@ -2,7 +2,6 @@
 // Part of Groundglass.
 #include "scene/check_option.h"
 
-#include "scene/error.h"
 #include "scene/text.h"
 
 #include <cmath>
@@ -11,7 +10,7 @@ namespace groundglass {
 namespace {
 
 [[noreturn]] void Refuse(const std::string& field, const std::string& rule, double value) {
-  throw Error(field + " must be " + rule + ", not " + FormatNumber(value));
+  throw OptionError(field, "must be " + rule + ", not " + FormatNumber(value));
 }
 
 }  // namespace
@@ -27,7 +26,7 @@ void CheckFinite(double value, const std::string& field) {
 
 void CheckAtLeast(double value, double least, const std::string& field) {
   if (value >= least && std::isfinite(value)) return;
-  Refuse(field, FormatNumber(least) + " or more", value);
+  Refuse(field, "at least " + FormatNumber(least), value);
 }
 
 void CheckAbove(double value, double bound, const std::string& field) {

@@ -89,12 +89,17 @@ std::map<long long, ColmapCamera> ReadCamerasBin(const fs::path& file) {
     std::vector<double> parameters;
     for (int k = 0; k < kind->num_parameters; ++k) parameters.push_back(reader.Read<double>());
     constexpr uint64_t kLargest = 1ull << 40;  // any is too large
-    ColmapCamera camera = MakeColmapCamera(*kind,
-                                           static_cast<long long>(std::min(width, kLargest)),
-                                           static_cast<long long>(std::min(height, kLargest)),
-                                           parameters,
-                                           place,
-                                           file.parent_path());
+    ColmapCamera camera;
+    try {
+      camera = MakeColmapCamera(*kind,
+                                static_cast<long long>(std::min(width, kLargest)),
+                                static_cast<long long>(std::min(height, kLargest)),
+                                parameters,
+                                place,
+                                file.parent_path());
+    } catch (const Error& error) {
+      camera.fault = error.what();  // of the images that use it
+    }
     if (!cameras.emplace(id, std::move(camera)).second) throw Error(place + " is repeated");
   }
   reader.ExpectEnd();
@@ -110,11 +115,11 @@ std::vector<ColmapImage> ReadImagesBin(const fs::path& file) {
     image.place = file.string() + ": image " + std::to_string(reader.Read<uint32_t>());
     for (double& value : image.pose) {
       value = reader.Read<double>();
-      if (!std::isfinite(value)) throw Error(image.place + ": its pose is not finite");
+      if (!std::isfinite(value)) image.fault = image.place + ": its pose is not finite";
     }
     image.camera_id = reader.Read<uint32_t>();
     image.name = reader.ReadName();
-    if (image.name.empty()) throw Error(image.place + " has no name");
+    if (image.name.empty()) image.fault = image.place + " has no name";
     reader.Skip(reader.Read<uint64_t>(), 8 + 8 + 8);
   }
   reader.ExpectEnd();
@@ -124,7 +129,7 @@ std::vector<ColmapImage> ReadImagesBin(const fs::path& file) {
 }  // namespace
 
 ColmapRecords ReadColmapBinary(const fs::path& cameras_file, const fs::path& images_file) {
-  return {ReadCamerasBin(cameras_file), ReadImagesBin(images_file)};
+  return {ReadCamerasBin(cameras_file), ReadImagesBin(images_file), {}};
 }
 
 }  // namespace groundglass

@@ -132,9 +132,9 @@ void WriteColmapModel(const fs::path& folder, const std::vector<NamedCamera>& ca
     }
     images_text += " " + id + " " + cameras[i].name + "\n\n";
   }
-  WriteFileAtomically(folder / "cameras.txt", cameras_text);
-  WriteFileAtomically(folder / "images.txt", images_text);
-  WriteFileAtomically(folder / "points3D.txt", "# no points\n");
+  WriteFilesAtomically({{folder / "cameras.txt", cameras_text},
+                        {folder / "images.txt", images_text},
+                        {folder / "points3D.txt", "# no points\n"}});
 }
 
 std::optional<ColmapFiles> FindColmapModel(const fs::path& folder) {
@@ -147,32 +147,60 @@ std::optional<ColmapFiles> FindColmapModel(const fs::path& folder) {
   return std::nullopt;
 }
 
-std::vector<NamedCamera> ReadColmapModel(const ColmapFiles& files) {
+ColmapReading ReadColmapImages(const ColmapFiles& files) {
   const ColmapRecords records = files.images_file.extension() == ".bin"
                                     ? ReadColmapBinary(files.cameras_file, files.images_file)
                                     : ReadColmapText(files.cameras_file, files.images_file);
-  std::vector<NamedCamera> named_cameras;
+  ColmapReading reading;
   std::set<std::string> names;
   for (const ColmapImage& image : records.images) {
-    const Eigen::Quaterniond rotation = RotationOf(image);
-    const auto camera = records.cameras.find(image.camera_id);
-    if (camera == records.cameras.end()) {
-      throw Error(image.place + ": camera " + std::to_string(image.camera_id) + " is not in " +
-                  files.cameras_file.filename().string());
+    std::string name = image.name;
+    std::replace(name.begin(), name.end(), '\\', '/');
+    try {
+      if (!image.fault.empty()) throw Error(image.fault);
+      const Eigen::Quaterniond rotation = RotationOf(image);
+      const auto camera = records.cameras.find(image.camera_id);
+      if (camera == records.cameras.end()) {
+        throw Error(image.place + ": camera " + std::to_string(image.camera_id) + " is not in " +
+                    files.cameras_file.filename().string());
+      }
+      if (!camera->second.fault.empty()) throw Error(camera->second.fault);
+      if (!names.insert(name).second) {
+        throw Error(image.place + ": image " + Quote(image.name) + " is repeated");
+      }
+      NamedCamera& named = reading.cameras.emplace_back();
+      named.name = name;
+      named.camera = camera->second.camera;
+      named.camera.cam_from_world = {rotation.toRotationMatrix(),
+                                     {image.pose[4], image.pose[5], image.pose[6]}};
+    } catch (const Error& error) {
+      reading.faults.push_back({name, error.what()});
     }
-    if (!camera->second.fault.empty()) throw Error(camera->second.fault);
-    NamedCamera& named = named_cameras.emplace_back();
-    named.name = image.name;
-    std::replace(named.name.begin(), named.name.end(), '\\', '/');
-    if (!names.insert(named.name).second) {
-      throw Error(image.place + ": image " + Quote(image.name) + " is repeated");
-    }
-    named.camera = camera->second.camera;
-    named.camera.cam_from_world = {rotation.toRotationMatrix(),
-                                   {image.pose[4], image.pose[5], image.pose[6]}};
   }
-  if (named_cameras.empty()) throw Error(files.images_file, "no images in this model");
-  return named_cameras;
+  for (const std::string& fault : records.stray_faults) reading.faults.push_back({"", fault});
+  if (!reading.cameras.empty()) return reading;
+  if (!reading.faults.empty()) throw Error(reading.faults.front().text);
+  throw Error(files.images_file, "no images in this model");
+}
+
+std::vector<std::string> TellColmapFaults(const std::vector<ColmapFault>& faults) {
+  constexpr size_t kMost = 5;
+  std::vector<std::string> lines;
+  for (size_t i = 0; i < std::min(kMost, faults.size()); ++i) {
+    lines.push_back(faults[i].text + (faults[i].name.empty()
+                                          ? std::string()
+                                          : "; image " + Quote(faults[i].name) + " is left out"));
+  }
+  if (faults.size() > kMost) {
+    lines.back() += "; and " + std::to_string(faults.size() - kMost) + " more";
+  }
+  return lines;
+}
+
+std::vector<NamedCamera> ReadColmapModel(const ColmapFiles& files) {
+  ColmapReading reading = ReadColmapImages(files);
+  if (!reading.faults.empty()) throw Error(reading.faults.front().text);
+  return std::move(reading.cameras);
 }
 
 std::vector<NamedCamera> ReadColmapModel(const fs::path& folder) {

@@ -32,9 +32,24 @@ struct ColmapFiles {
 // there is none. Throws Error if it cannot be told which one is meant, or half of it is missing.
 std::optional<ColmapFiles> FindColmapModel(const std::filesystem::path& folder);
 
+// What is wrong with one image of a model, or with one line of its files.
+struct ColmapFault {
+  std::string name;  // of the image; empty if the line does not say
+  std::string text;  // for a person, with file and line
+};
+struct ColmapReading {
+  std::vector<NamedCamera> cameras;
+  std::vector<ColmapFault> faults;  // of images that are left out
+};
 // Text and binary models: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, and FULL_OPENCV
 // with k4 = k5 = k6 = 0; in the order of the file of images, points not looked at. Backslashes in
-// names, which COLMAP writes on Windows, become slashes. Throws Error naming file and line.
+// names, which COLMAP writes on Windows, become slashes. Throws Error naming file and line where no
+// image can be read.
+ColmapReading ReadColmapImages(const ColmapFiles& files);
+// Warnings for a person: the first few faults, and how many more there are.
+std::vector<std::string> TellColmapFaults(const std::vector<ColmapFault>& faults);
+
+// The same of models that have to be whole: throws the first fault.
 std::vector<NamedCamera> ReadColmapModel(const ColmapFiles& files);
 std::vector<NamedCamera> ReadColmapModel(const std::filesystem::path& folder);
 

@@ -24,12 +24,14 @@ struct ColmapCamera {
 struct ColmapImage {
   std::string place;
   std::string name;
-  std::array<double, 7> pose;  // QW QX QY QZ TX TY TZ
+  std::array<double, 7> pose = {};  // QW QX QY QZ TX TY TZ
   long long camera_id = 0;
+  std::string fault;  // why it cannot be used
 };
 struct ColmapRecords {
   std::map<long long, ColmapCamera> cameras;
   std::vector<ColmapImage> images;
+  std::vector<std::string> stray_faults;  // of lines that belong to no camera or image
 };
 
 // A model of cameras that COLMAP has.

@@ -70,13 +70,14 @@ ConvertResult ConvertColmapToViews(const fs::path& input,
   if (!(lookat_distance > 0)) throw Error("the look-at distance must be above 0");
   const std::optional<ColmapFiles> files = FindColmapModel(input);
   if (!files) throw Error(input, "no COLMAP model here");
-  const std::vector<NamedCamera> cameras = ReadColmapModel(*files);
+  const ColmapReading reading = ReadColmapImages(*files);
+  const std::vector<NamedCamera>& cameras = reading.cameras;
   std::vector<std::string> images;
   for (const NamedCamera& named : cameras) images.push_back(named.name);
   const std::vector<std::string> names = NamePhotographs(images);
   // All are made before the first is written, so that a fault leaves nothing half done.
   std::map<std::string, size_t> image_of_name;
-  std::vector<std::string> texts;
+  std::vector<FileToWrite> view_files;
   for (size_t i = 0; i < cameras.size(); ++i) {
     const auto [place, is_new] = image_of_name.emplace(names[i], i);
     if (!is_new) {
@@ -88,13 +89,16 @@ ConvertResult ConvertColmapToViews(const fs::path& input,
     if (const std::optional<TagFault> fault = FindTagFault(tag)) {
       throw Error(input, "image " + Quote(images[i]) + ": " + fault->message);
     }
-    texts.push_back(FormatView(
-        tag, "File: " + names[i] + ".view\nFrom a COLMAP model, image " + images[i] + "."));
+    view_files.push_back(
+        {output / (names[i] + ".view"),
+         FormatView(tag,
+                    "File: " + names[i] + ".view\nFrom a COLMAP model, image " + images[i] + ".")});
   }
-  for (size_t i = 0; i < cameras.size(); ++i) {
-    WriteFileAtomically(output / (names[i] + ".view"), texts[i]);
-  }
-  return {Count(cameras.size(), "view file") + " in " + output.string(), files->warnings};
+  WriteFilesAtomically(view_files);
+  std::vector<std::string> warnings = files->warnings;
+  const std::vector<std::string> faults = TellColmapFaults(reading.faults);
+  warnings.insert(warnings.end(), faults.begin(), faults.end());
+  return {Count(cameras.size(), "view file") + " in " + output.string(), warnings};
 }
 
 ConvertResult ConvertViewsToColmap(const fs::path& input,

@@ -100,7 +100,8 @@ EdgeFit::EdgeFit(const Image8& grey8) {
 double EdgeFit::Score(const PolygonModel& model,
                       const std::vector<ModelEdge>& edges,
                       const Visibility& visibility,
-                      const Camera& camera) const {
+                      const Camera& camera,
+                      double nearness) const {
   const Camera small = ResizedCamera(camera, width_, height_);
   std::vector<EdgeSample> samples;
   for (const VisibleSpan& span : FindVisibleSpans(model, edges, visibility, small, 0)) {
@@ -144,7 +145,8 @@ double EdgeFit::Score(const PolygonModel& model,
       const double mean = total / count;
       sum += mean;
       sum_of_squares += mean * mean;
-      best = std::max(best, mean);
+      const bool is_near = std::max(std::abs(dx), std::abs(dy)) <= nearness * reach;
+      if (is_near) best = std::max(best, mean);
       ++num_places;
     }
   }

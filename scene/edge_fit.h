@@ -23,11 +23,12 @@ class EdgeFit {
   // The model's visible edges are laid over the picture and moved about by as much as a
   // hand-written tag is off. How far the best place stands out from all of them, in their standard
   // deviations; 0 where too little of the model is in the frame. `camera`: of any size, of the
-  // picture's shape.
+  // picture's shape. `nearness`: the best place is looked for within this share of the reach.
   double Score(const PolygonModel& model,
                const std::vector<ModelEdge>& edges,
                const Visibility& visibility,
-               const Camera& camera) const;
+               const Camera& camera,
+               double nearness = 1) const;
 
  private:
   static constexpr int kDirections = 8;

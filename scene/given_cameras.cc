@@ -57,7 +57,8 @@ GivenCameras MatchColmapModel(const ColmapFiles& files,
   given.warnings = files.warnings;
   const ImagePathFinder finder(image_paths);
   std::vector<std::string> strays;
-  for (const NamedCamera& camera : ReadColmapModel(files)) {
+  const ColmapReading reading = ReadColmapImages(files);
+  for (const NamedCamera& camera : reading.cameras) {
     const std::optional<size_t> image = finder.Find(camera.name);
     if (!image) {
       strays.push_back(camera.name);
@@ -73,9 +74,21 @@ GivenCameras MatchColmapModel(const ColmapFiles& files,
                                  .what());
     }
   }
+  std::vector<ColmapFault> stray_faults;
+  for (const ColmapFault& fault : reading.faults) {
+    const std::optional<size_t> image = fault.name.empty() ? std::nullopt : finder.Find(fault.name);
+    if (image) {
+      given.faults_of_image[*image].push_back(fault.text);
+    } else {
+      stray_faults.push_back(fault);
+    }
+  }
+  const std::vector<std::string> told = TellColmapFaults(stray_faults);
+  given.warnings.insert(given.warnings.end(), told.begin(), told.end());
   std::vector<std::string> bare;
   for (size_t i = 0; i < image_paths.size(); ++i) {
-    if (given.camera_of_image.count(i) == 0) bare.push_back(image_paths[i]);
+    if (given.camera_of_image.count(i) == 0 && given.faults_of_image.count(i) == 0)
+      bare.push_back(image_paths[i]);
   }
   if (!strays.empty()) {
     given.warnings.push_back(Error(files.images_file,

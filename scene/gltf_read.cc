@@ -3,44 +3,21 @@
 #include "scene/error.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_extensions.h"
-#include "scene/image_io.h"
-#include "scene/material_library.h"
+#include "scene/gltf_parse.h"
+#include "scene/gltf_textures.h"
 #include "scene/mesh_io.h"
 #include "scene/text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 
 namespace groundglass {
 namespace {
 
-// Keeps a picture's bytes as they are: they are decoded only if somebody asks.
-bool KeepImageBytes(tinygltf::Image* image,
-                    const int,
-                    std::string*,
-                    std::string*,
-                    int,
-                    int,
-                    const unsigned char* bytes,
-                    int size,
-                    void*) {
-  image->as_is = true;
-  image->image.assign(bytes, bytes + std::max(0, size));
-  return true;
-}
-
 // glTF is y up with z towards the viewer; `world` is z up.
 Eigen::Vector3d WorldFromGltf(const Eigen::Vector3d& point) {
   return {point.x(), -point.z(), point.y()};
-}
-
-bool BeginsWith(const std::filesystem::path& file, std::string_view mark) {
-  std::string begin(mark.size(), '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return begin == mark;
 }
 
 class GltfReader {
@@ -49,7 +26,7 @@ class GltfReader {
       : file_(file), unit_(unit) {}
 
   MeshReading Read(bool with_pages) {
-    Parse();
+    gltf_ = ParseGltf(file_);
     CheckGltfExtensions(gltf_, file_, reading_.warnings);
     origin_ = GltfOrigin(gltf_, file_);
     ReadOwnNotes();
@@ -61,7 +38,12 @@ class GltfReader {
       AppendNode(node, Eigen::Matrix4d::Identity(), 0);
     }
     RestoreOrder();
-    FindPages(with_pages);
+    if (with_pages) {
+      TellUnreadTextures();
+      DecodeGltfPages(gltf_, file_, result_, reading_.warnings);
+    } else {
+      for (FaceTexture& face : result_.faces) face = FaceTexture();
+    }
     JoinIdenticalPoints(result_.model);
     return std::move(reading_);
   }
@@ -72,25 +54,6 @@ class GltfReader {
   template <typename T>
   const T& At(const std::vector<T>& items, int index, const char* what) const {
     return GltfItem(items, index, what, file_);
-  }
-
-  void Parse() {
-    tinygltf::TinyGLTF parser;
-    parser.SetImageLoader(KeepImageBytes, nullptr);
-    std::string faults;
-    std::string warnings;
-    bool is_read = false;
-    try {
-      is_read = BeginsWith(file_, "glTF")  // whatever it is called
-                    ? parser.LoadBinaryFromFile(&gltf_, &faults, &warnings, file_.string())
-                    : parser.LoadASCIIFromFile(&gltf_, &faults, &warnings, file_.string());
-    } catch (const std::exception& exception) {
-      Fail(exception.what());
-    }
-    if (!is_read) {
-      std::replace(faults.begin(), faults.end(), '\n', ' ');
-      Fail(faults.empty() ? "it is damaged" : faults);
-    }
   }
 
   // What a file written by WriteGlb says beyond the format.
@@ -312,11 +275,16 @@ class GltfReader {
     const int index =
         At(gltf_.materials, material, "material").pbrMetallicRoughness.baseColorTexture.index;
     if (index < 0) return -1;
-    const tinygltf::Texture& texture = At(gltf_.textures, index, "texture");
-    if (texture.source < 0 && !texture.extensions.empty()) {
-      unread_textures_.insert(texture.extensions.begin()->first);
+    return FindTextureImage(At(gltf_.textures, index, "texture"), unread_textures_);
+  }
+
+  void TellUnreadTextures() {
+    for (const std::string& name : unread_textures_) {
+      reading_.warnings.push_back(
+          Error(file_,
+                "pictures of the kind " + Quote(name) + " are not read; their faces are grey")
+              .what());
     }
-    return texture.source;
   }
 
   // Our faces were parted by page; put them back in the model's order.
@@ -334,79 +302,6 @@ class GltfReader {
     }
     result_.model.faces = std::move(faces);
     result_.faces = std::move(textures);
-  }
-
-  // Decodes the images that faces use, in order, and turns shares of the picture into texels. Faces
-  // whose picture cannot be had are grey.
-  void FindPages(bool with_pages) {
-    constexpr int kNotTried = -1;
-    constexpr int kNone = -2;
-    std::vector<int> page_of_image(gltf_.images.size(), kNotTried);
-    std::vector<int> num_grey(gltf_.images.size(), 0);
-    std::vector<std::string> faults(gltf_.images.size());
-    for (FaceTexture& face : result_.faces) {
-      if (face.page < 0) continue;
-      if (!with_pages) {
-        face = FaceTexture();
-        continue;
-      }
-      const auto image = static_cast<size_t>(face.page);
-      At(gltf_.images, face.page, "image");
-      int& page = page_of_image[image];
-      if (page == kNotTried) {
-        try {
-          Image8 srgb8 = Decode(gltf_.images[image]);
-          page = static_cast<int>(result_.pages.size());
-          result_.pages.emplace_back().srgb8 = std::move(srgb8);
-        } catch (const Error& error) {
-          page = kNone;
-          faults[image] = error.what();
-        }
-      }
-      if (page == kNone) {
-        face = FaceTexture();
-        ++num_grey[image];
-        continue;
-      }
-      face.page = page;
-      const Image8& picture = result_.pages[static_cast<size_t>(page)].srgb8;
-      for (Eigen::Vector2d& corner : face.corners_texel) {
-        corner = {corner.x() * picture.width, corner.y() * picture.height};
-      }
-    }
-    for (const std::string& name : unread_textures_) {
-      if (!with_pages) break;
-      reading_.warnings.push_back(
-          Error(file_,
-                "pictures of the kind " + Quote(name) + " are not read; their faces are grey")
-              .what());
-    }
-    for (size_t image = 0; image < faults.size(); ++image) {
-      if (faults[image].empty()) continue;
-      reading_.warnings.push_back(
-          Error(file_,
-                faults[image] + "; " +
-                    (num_grey[image] == 1
-                         ? std::string("its face is grey")
-                         : "its " + std::to_string(num_grey[image]) + " faces are grey"))
-              .what());
-    }
-  }
-
-  Image8 Decode(const tinygltf::Image& image) const {
-    const std::vector<unsigned char>& bytes = image.image;
-    if (bytes.empty()) {
-      const auto found = FindNamedFile(file_.parent_path(), image.uri);
-      if (found) return ReadSrgb8(*found);
-      throw Error("the picture " + Quote(image.uri.empty() ? image.name : image.uri) +
-                  " is not there");
-    }
-    const bool is_png = bytes.size() > 4 && bytes[1] == 'P' && bytes[2] == 'N';
-    try {
-      return DecodeSrgb8(bytes, is_png ? ".png" : ".jpg");
-    } catch (const Error& error) {
-      throw Error("a picture cannot be read: " + std::string(error.what()));
-    }
   }
 
   std::filesystem::path file_;

@@ -159,6 +159,25 @@ bool IsTarga(Bytes bytes) {
          Number(bytes, 12, 2, false) > 0 && Number(bytes, 14, 2, false) > 0;
 }
 
+// The same where the name does not say so: nothing else in the header is odd, and the file holds
+// the pixels that it says.
+bool IsSurelyTarga(Bytes bytes) {
+  if (!IsTarga(bytes)) return false;
+  const int map = bytes[1], type = bytes[2], depth = bytes[16], descriptor = bytes[17];
+  const bool is_mapped = type == 1 || type == 9;
+  const bool is_grey = type == 3 || type == 11;
+  if ((map == 1) != is_mapped || (descriptor & 0xC0) != 0 || (descriptor & 0x0F) > 8) return false;
+  if ((is_mapped || is_grey) ? depth > 16 : depth < 15) return false;
+  const uint32_t num_colours = Number(bytes, 5, 2, false);
+  if (map == 0 && (num_colours != 0 || bytes[7] != 0)) return false;
+  if (map == 1 && (num_colours == 0 || bytes[7] < 15 || bytes[7] > 32)) return false;
+  const uint64_t num_pixels =
+      static_cast<uint64_t>(Number(bytes, 12, 2, false)) * Number(bytes, 14, 2, false);
+  // In runs, 128 pixels are two bytes at least.
+  const uint64_t least = 18 + (type <= 3 ? num_pixels * ((depth + 7) / 8) : num_pixels / 64);
+  return bytes.size() >= std::min<uint64_t>(least, kHeadSize);
+}
+
 bool IsText(std::string_view text) {
   if (text.size() < kHeadSize) return IsUtf8(text);
   for (size_t cut = 0; cut < 4; ++cut) {  // the head may end within a letter
@@ -244,6 +263,8 @@ ImageKind FindImageKind(Bytes bytes, const std::filesystem::path& name) {
   if (unmarked.description == kUnknown && raw_extensions.count(extension) > 0) {
     return {"raw", "a camera raw file", ""};
   }
+  // Last, for what fits nothing else: a Targa under another format's name.
+  if (unmarked.description == kUnknown && IsSurelyTarga(bytes)) return {"targa", "a Targa", ""};
   return unmarked;
 }
 

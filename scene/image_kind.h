@@ -11,7 +11,8 @@
 namespace groundglass {
 
 // What a file is, by its content: names are wrong too often (a PNG called .jpg, no extension).
-// Only the few formats that have no mark of their own (Targa, some camera raw) go by the name.
+// Only some camera raw files, which have no mark of their own, go by the name; Targa has none
+// either, and is what fits nothing else and has a Targa's header.
 struct ImageKind {
   std::string reader;       // OpenImageIO's name of the format; empty: no image that is read here
   std::string description;  // for a person: "a PDF", "text", "an empty file"

@@ -6,6 +6,7 @@
 #include "scene/face_number.h"
 #include "scene/face_outline.h"
 #include "scene/model_io.h"
+#include "scene/nested_faces.h"
 
 #include <algorithm>
 #include <numeric>
@@ -47,6 +48,7 @@ class FaceMender {
     TellRepeated();
     TellTurned();
     DropDoubles();
+    TellNested();
     return std::move(mended_);
   }
 
@@ -114,7 +116,7 @@ class FaceMender {
 
   void TurnHoles(int face) {
     const std::vector<int>& points = model_.faces[face].points;
-    if (points.size() < 7) return;  // a triangle, a bridge to a triangle, and back
+    if (points.size() < 6) return;  // a triangle with a triangle in one of its corners
     const FacePlane plane = ComputeFacePlane(model_, face);
     const Eigen::Vector3d u = plane.normal_in_world.unitOrthogonal();
     const Eigen::Vector3d v = plane.normal_in_world.cross(u);
@@ -235,6 +237,22 @@ class FaceMender {
                  " of them lie back to back, and the first one's front counts";
     }
     Warn(0, message);
+  }
+
+  void TellNested() {
+    const std::vector<NestedFace> nested = FindNestedFaces(model_, mended_.usable);
+    if (nested.empty()) return;
+    const std::string first =
+        Place(nested[0].inner) + ", in " + DescribeFace(model_, nested[0].outer);
+    Warn(0,
+         (nested.size() == 1
+              ? "1 face lies within another one in the same plane, so that it is chance which of "
+                "the two is seen there: "
+              : std::to_string(nested.size()) +
+                    " faces lie within others in the same plane, so that it is chance which of the "
+                    "two is seen there; the first: ") +
+             first +
+             "; cut a hole for it, move it off the plane, or leave out the one that is not meant");
   }
 
   const std::filesystem::path& file_;

@@ -38,6 +38,11 @@ MeshReading ReadMesh(const std::filesystem::path& file,
   }
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) throw Error(file, "no such model file");
+  if (std::filesystem::file_size(file, error) == 0 && !error) {
+    throw Error(file,
+                "this model file is empty; copy it again from where it came from, or export it "
+                "once more");
+  }
   if (is_gltf) return ReadGltf(file, options.unit, with_pages);
   if (extension == ".obj") return ReadTexturedObj(file, with_pages);
   return extension == ".ply" ? ReadPly(file) : ReadStl(file);

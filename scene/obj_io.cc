@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/obj_io.h"
 
+#include "scene/bad_corners.h"
 #include "scene/continued_lines.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
@@ -10,6 +11,7 @@
 #include "scene/view_io.h"
 
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace groundglass {
@@ -30,10 +32,10 @@ class ObjReader {
         ReadLine(LowerCase(lines_.keyword()));
       }
     }
-    ResolveIndices();
     // It is in the model's unit, which may be told further down.
     if (sigma_) ReadSigmaComment(*sigma_, file_, sigma_line_, reading_.model);
     ApplyFaceNumbers(face_numbers_, reading_.model);
+    LeaveOutBadFaces();
     return std::move(reading_);
   }
 
@@ -95,18 +97,15 @@ class ObjReader {
     return *value;
   }
 
-  // One field of "7/3/1" as a place from 0: counts from 1, or backwards from the last with a minus.
-  // Points may still follow, so that places beyond the last are judged at the end.
-  int ReadIndex(std::string_view word, size_t count, const char* what) const {
+  // One field of "7/3/1" as a place from 0: counts from 1, or backwards from the last with a minus;
+  // -1 if it is none. Points may still follow, so that places beyond the last are judged at the
+  // end.
+  static int ReadIndex(std::string_view word, size_t count) {
     const std::optional<long long> number = ParseInteger(word);
-    if (!number) Fail(Quote(word) + " is not the number of a " + what);
+    if (!number) return -1;
     const long long size = static_cast<long long>(count);
     const long long index = *number < 0 && *number >= -size ? size + *number : *number - 1;
-    if (index < 0 || index > 2147483646) {
-      Fail(std::string(what) + " " + std::string(word) + " is outside 1 to " +
-           std::to_string(count));
-    }
-    return static_cast<int>(index);
+    return index < 0 || index > 2147483646 ? -1 : static_cast<int>(index);
   }
 
   void ReadFaceLine() {
@@ -116,37 +115,84 @@ class ObjReader {
     std::vector<int>& texture_points = reading_.face_texture_points.emplace_back();
     reading_.face_lines.push_back(lines_.number());
     reading_.materials.push_back(material_);
+    const int place = static_cast<int>(reading_.model.faces.size()) - 1;
     for (const std::string_view word : lines_.arguments()) {
       const size_t slash = word.find('/');
-      face.points.push_back(
-          ReadIndex(word.substr(0, slash), reading_.model.points_in_world.size(), "point"));
+      const std::string_view point = word.substr(0, slash);
+      face.points.push_back(ReadIndex(point, reading_.model.points_in_world.size()));
+      if (face.points.back() < 0) bad_words_.try_emplace(place, point);
       if (slash == std::string_view::npos) continue;
       const std::string_view rest = word.substr(slash + 1);
       const std::string_view texture_word = rest.substr(0, rest.find('/'));
       if (texture_word.empty()) continue;
-      texture_points.push_back(
-          ReadIndex(texture_word, reading_.texture_points.size(), "texture point"));
+      texture_points.push_back(ReadIndex(texture_word, reading_.texture_points.size()));
+      if (texture_points.back() < 0) bad_texture_words_.try_emplace(place, texture_word);
     }
     // Texture points on some corners only say nothing about the face.
     if (texture_points.size() != face.points.size()) texture_points.clear();
   }
 
-  void ResolveIndices() const {
-    const auto check = [&](int index, size_t count, size_t face, const char* what) {
-      if (static_cast<size_t>(index) < count) return;
-      throw Error(file_,
-                  reading_.face_lines[face],
-                  std::string(what) + " " + std::to_string(index + 1) + " is outside 1 to " +
-                      std::to_string(count));
-    };
-    for (size_t face = 0; face < reading_.model.faces.size(); ++face) {
-      for (const int point : reading_.model.faces[face].points) {
-        check(point, reading_.model.points_in_world.size(), face, "point");
+  // What is wrong with a face's indices; empty if nothing is. `words`: of faces with one that is
+  // negative here.
+  static std::string FaultOfIndices(const std::vector<int>& indices,
+                                    int face,
+                                    const std::map<int, std::string>& words,
+                                    size_t count,
+                                    const std::string& what) {
+    const std::string range = " is outside 1 to " + std::to_string(count);
+    for (const int index : indices) {
+      if (index >= 0 && static_cast<size_t>(index) < count) continue;
+      if (index >= 0) return what + " " + std::to_string(index + 1) + range;
+      const std::string& word = words.at(face);
+      const std::optional<long long> number = ParseInteger(word);
+      if (!number) {
+        return Quote(word) + " is not the number of a " + what + "; there are " +
+               std::to_string(count);
       }
-      for (const int point : reading_.face_texture_points[face]) {
-        check(point, reading_.texture_points.size(), face, "texture point");
-      }
+      if (*number >= 0) return what + " " + word + range;
+      return what + " " + word + " counts back beyond the first; there are " +
+             std::to_string(count);
     }
+    return "";
+  }
+
+  void LeaveOutBadFaces() {
+    std::vector<BadCorner> bad;
+    std::vector<BadCorner> grey;
+    const PolygonModel& model = reading_.model;
+    std::vector<std::vector<int>>& texture_points = reading_.face_texture_points;
+    for (int face = 0; face < static_cast<int>(model.faces.size()); ++face) {
+      std::string fault = FaultOfIndices(
+          model.faces[face].points, face, bad_words_, model.points_in_world.size(), "point");
+      if (!fault.empty()) {
+        bad.push_back({face, std::move(fault)});
+        continue;
+      }
+      fault = FaultOfIndices(texture_points[face],
+                             face,
+                             bad_texture_words_,
+                             reading_.texture_points.size(),
+                             "texture point");
+      if (fault.empty()) continue;
+      texture_points[face].clear();
+      grey.push_back({face, std::move(fault)});
+    }
+    if (!grey.empty()) {
+      const int line = reading_.face_lines[static_cast<size_t>(grey[0].face)];
+      const std::string which =
+          grey.size() == 1 ? DescribeFace(model, grey[0].face) + " is without its picture: "
+                           : std::to_string(grey.size()) +
+                                 " faces are without their picture; "
+                                 "the first: " +
+                                 DescribeFace(model, grey[0].face) + ": ";
+      reading_.warnings.push_back(Error(file_, line, which + grey[0].text).what());
+    }
+    if (bad.empty()) return;
+    reading_.warnings.push_back(WarnOfBadCorners(file_, reading_.face_lines, model, bad));
+    DropFaces(bad, reading_.model.faces);
+    DropFaces(bad, reading_.face_lines);
+    DropFaces(bad, reading_.materials);
+    DropFaces(bad, texture_points);
   }
 
   const std::filesystem::path& file_;
@@ -156,6 +202,9 @@ class ObjReader {
   std::string face_numbers_;
   std::optional<std::string> sigma_;
   int sigma_line_ = 0;
+  // Of faces, by place, the first word that can be no index.
+  std::map<int, std::string> bad_words_;
+  std::map<int, std::string> bad_texture_words_;
   ObjReading reading_;
 };
 

@@ -22,9 +22,12 @@ struct ObjReading {
   std::vector<std::string> materials;                 // `usemtl` of each face; may be empty
   std::vector<Eigen::Vector2d> texture_points;        // `vt`, v upwards from the picture's bottom
   std::vector<std::vector<int>> face_texture_points;  // of each face's corners; empty: none
+  std::vector<std::string> warnings;                  // of faces that are left out
 };
 
-// Throws Error naming file and line. Geometry of the faces is not yet checked.
+// Throws Error naming file and line. A face with a corner that is no point is left out with a
+// warning, and the others keep their numbers, unless most are such. Geometry of the faces is not
+// yet checked.
 ObjReading ReadObj(const std::filesystem::path& file);
 
 // A face's name as a group's: on one line; "default" for none.

@@ -10,6 +10,7 @@
 #include "scene/text.h"
 #include "scene/view_io.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -178,12 +179,21 @@ OsuReading ReadAll(const std::string& text, const std::filesystem::path& name) {
     model.points_in_world.push_back(WorldFromSite({x, y, z}));
   }
 
+  // Faces are called by their numbers before they are read, too.
+  PolygonModel numbering;
+  numbering.faces.resize(static_cast<size_t>(num_faces));
+  for (const TextLine& line : lines) {
+    if (CommentField(line, "face numbers:")) {
+      ApplyFaceNumbers(line.comment.substr(line.comment.find(':') + 1), numbering);
+    }
+  }
   std::vector<int> first_lines;
   std::vector<int> last_lines;
   std::map<int, int> faces_on_line;
   std::vector<char> is_told(static_cast<size_t>(num_faces), 0);  // its fault is known already
   for (long long i = 0; i < num_faces; ++i) {
-    const std::string face_name = "face " + std::to_string(i + 1);
+    const int number = FaceNumber(numbering, static_cast<int>(i));
+    const std::string face_name = "face " + std::to_string(number);
     const long long corners = words.ReadInteger(face_name + ", its number of points");
     first_lines.push_back(words.line());
     if (corners < 1 || corners > static_cast<long long>(words.NumLeft())) {
@@ -191,7 +201,7 @@ OsuReading ReadAll(const std::string& text, const std::filesystem::path& name) {
           name, words.line(), face_name + " cannot have " + std::to_string(corners) + " points");
     }
     Face& face = model.faces.emplace_back();
-    face.number = static_cast<int>(i + 1);
+    face.number = number;
     bool is_in_range = true;
     for (long long k = 0; k < corners; ++k) {
       const long long point = words.ReadInteger(face_name + ", point number");
@@ -222,8 +232,15 @@ OsuReading ReadAll(const std::string& text, const std::filesystem::path& name) {
 
   for (const TextLine& line : lines) {
     if (const auto named = NameBeforeFace(line)) {
-      if (line.tokens.empty() && named->first >= 1 && named->first <= num_faces) {
-        model.faces[static_cast<size_t>(named->first - 1)].name = named->second;
+      if (!line.tokens.empty()) continue;
+      // The face on the line below; files of version 0.1.0 called it by its place.
+      const size_t below = static_cast<size_t>(
+          std::upper_bound(first_lines.begin(), first_lines.end(), line.number) -
+          first_lines.begin());
+      if (below < model.faces.size() && named->first == static_cast<long long>(below) + 1) {
+        model.faces[below].name = named->second;
+      } else if (const std::optional<int> face = FindFaceByNumber(model, named->first)) {
+        model.faces[static_cast<size_t>(*face)].name = named->second;
       }
     }
   }
@@ -233,11 +250,6 @@ OsuReading ReadAll(const std::string& text, const std::filesystem::path& name) {
       if (!line.has_comment || line.comment.empty() || faces_on_line[number] != 1) continue;
       const auto named = NameBeforeFace(line);
       model.faces[i].name = named ? named->second : std::string(line.comment);
-    }
-  }
-  for (const TextLine& line : lines) {
-    if (CommentField(line, "face numbers:")) {
-      ApplyFaceNumbers(line.comment.substr(line.comment.find(':') + 1), model);
     }
   }
   std::vector<FaceTexture> no_textures;
@@ -310,7 +322,8 @@ std::string FormatOsu(const PolygonModel& model) {
   for (size_t i = 0; i < model.faces.size(); ++i) {
     const Face& face = model.faces[i];
     if (!face.name.empty())
-      text += "% face " + std::to_string(i + 1) + ": " + OneLineName(face.name) + "\n";
+      text += "% face " + std::to_string(FaceNumber(model, static_cast<int>(i))) + ": " +
+              OneLineName(face.name) + "\n";
     text += std::to_string(face.points.size());
     for (const int point : face.points) text += " " + std::to_string(point + 1);
     text += "\n";

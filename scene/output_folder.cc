@@ -57,7 +57,8 @@ std::string FormatManifest(const Manifest& manifest) {
     json["stages"].push_back({{"name", stage.name},
                               {"key", stage.key},
                               {"is_complete", stage.is_complete},
-                              {"files", stage.files}});
+                              {"files", stage.files},
+                              {"sha256_of_files", stage.sha256_of_files}});
   }
   // File names may be of any bytes.
   return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -118,7 +119,9 @@ std::vector<StageRecord> ReadStages(const std::filesystem::path& folder) {
       stages.push_back({stage.at("name").get<std::string>(),
                         stage.at("key").get<std::string>(),
                         stage.at("is_complete").get<bool>(),
-                        stage.at("files").get<std::vector<std::string>>()});
+                        stage.at("files").get<std::vector<std::string>>(),
+                        // Earlier versions did not write them down.
+                        stage.value("sha256_of_files", std::map<std::string, std::string>())});
     }
   } catch (const nlohmann::json::exception&) {
     // Written by hand, or by an earlier version: nothing of it can be kept.

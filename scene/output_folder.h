@@ -18,6 +18,8 @@ struct StageRecord {
   std::string key;                 // HashText of all that its files depend on
   bool is_complete = false;        // else the files are those that it meant to write
   std::vector<std::string> files;  // relative to the folder
+  // What the files held when they were written, so that one that was changed since is noticed.
+  std::map<std::string, std::string> sha256_of_files;
 };
 
 // What an output folder was made from: manifest.json (docs/output-folder.md). Paths are relative

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "scene/output_stages.h"
 
+#include "scene/error.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -46,6 +48,38 @@ void OutputStages::Remove(const std::string& file) const {
   }
 }
 
+std::string OutputStages::HashOf(const std::string& file) const {
+  std::error_code failure;
+  const fs::file_time_type written_at = fs::last_write_time(folder_ / file, failure);
+  const uintmax_t size = failure ? 0 : fs::file_size(folder_ / file, failure);
+  if (failure || !IsInside(file)) return "";
+  Hashed& hashed = hashes_[file];
+  if (hashed.sha256.empty() || hashed.written_at != written_at || hashed.size != size) {
+    try {
+      hashed = {written_at, size, HashFile(folder_ / file)};
+    } catch (const Error&) {
+      return "";
+    }
+  }
+  return hashed.sha256;
+}
+
+bool OutputStages::IsAsRecorded(const StageRecord& record, const std::string& file) const {
+  const auto known = record.sha256_of_files.find(file);
+  return known == record.sha256_of_files.end() || HashOf(file) == known->second;
+}
+
+std::vector<std::string> OutputStages::FindChanged(const std::string& stage) const {
+  std::vector<std::string> changed;
+  const StageRecord* record = Find(stage);
+  if (!record) return changed;
+  for (const std::string& file : record->files) {
+    if (!IsInside(file) || !fs::is_regular_file(folder_ / file)) continue;
+    if (!IsAsRecorded(*record, file)) changed.push_back(file);
+  }
+  return changed;
+}
+
 void OutputStages::KeepOnly(const std::string& stage, const std::string& key) {
   const StageRecord* record = Find(stage);
   if (!record || record->key == key) return;
@@ -60,9 +94,14 @@ bool OutputStages::IsFrom(const std::string& stage, const std::string& key) cons
 
 bool OutputStages::IsComplete(const std::string& stage, const std::string& key) const {
   const StageRecord* record = Find(stage);
-  return record && record->is_complete && record->key == key &&
+  if (!record || !record->is_complete || record->key != key) return false;
+  const auto is_there = [&](const std::string& file) {
+    return fs::is_regular_file(folder_ / file);
+  };
+  // Names before bytes, which take longer.
+  return std::all_of(record->files.begin(), record->files.end(), is_there) &&
          std::all_of(record->files.begin(), record->files.end(), [&](const std::string& file) {
-           return fs::is_regular_file(folder_ / file);
+           return record->sha256_of_files.count(file) > 0 && IsAsRecorded(*record, file);
          });
 }
 
@@ -72,7 +111,7 @@ bool OutputStages::Has(const std::string& stage,
   const StageRecord* record = Find(stage);
   return record && record->key == key &&
          std::find(record->files.begin(), record->files.end(), file) != record->files.end() &&
-         fs::is_regular_file(folder_ / file);
+         fs::is_regular_file(folder_ / file) && IsAsRecorded(*record, file);
 }
 
 void OutputStages::Begin(const std::string& stage,
@@ -81,14 +120,21 @@ void OutputStages::Begin(const std::string& stage,
   StageRecord* record = Find(stage);
   if (!record) record = &manifest_.stages.emplace_back();
   const bool is_same = record->key == key;
+  // Said again, its files are no longer those of before: it is writing them.
+  const bool is_again = !begun_.insert(stage).second;
   for (const std::string& file : record->files) {
-    if (!is_same || std::find(files.begin(), files.end(), file) == files.end()) Remove(file);
+    const bool is_wanted = std::find(files.begin(), files.end(), file) != files.end();
+    if (is_same && is_wanted && (is_again || IsAsRecorded(*record, file))) continue;
+    Remove(file);
+    record->sha256_of_files.erase(file);
   }
   // Of unknown origin, and in the way.
   for (const std::string& file : files) {
     if (!is_same) Remove(file);
   }
-  *record = {stage, key, false, std::move(files)};
+  std::map<std::string, std::string> known;
+  if (is_same) known = std::move(record->sha256_of_files);
+  *record = {stage, key, false, std::move(files), std::move(known)};
   Write();
 }
 
@@ -97,6 +143,11 @@ void OutputStages::Finish(const std::string& stage) {
   if (!record) return;
   std::erase_if(record->files,
                 [&](const std::string& file) { return !fs::is_regular_file(folder_ / file); });
+  record->sha256_of_files.clear();
+  for (const std::string& file : record->files) {
+    hashes_.erase(file);  // clocks are too coarse to tell that it was just written
+    record->sha256_of_files[file] = HashOf(file);
+  }
   record->is_complete = true;
   Write();
 }

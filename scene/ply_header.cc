@@ -28,6 +28,7 @@ class HeaderReader {
  public:
   HeaderReader(std::string_view bytes, const std::filesystem::path& file)
       : bytes_(bytes), file_(file) {
+    if (bytes.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;  // an editor's byte order mark
     // Binary data may begin with any byte, so one line end holds for the whole header.
     const size_t end = bytes.find_first_of("\r\n");
     if (end == std::string_view::npos) return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "scene/bad_corners.h"
 #include "scene/error.h"
 #include "scene/mesh_io.h"
 #include "scene/ply_header.h"
@@ -10,6 +11,8 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <map>
 
 namespace groundglass {
 namespace {
@@ -29,6 +32,16 @@ class PlyNumbers {
 
   double Next(Type type, const std::string& what) {
     return is_ascii_ ? NextWord(what) : NextBytes(type, what);
+  }
+
+  // One that is told to be no number by NaN; what it is in place of one is then in `word`.
+  double NextOrNone(Type type, const std::string& what, std::string& word) {
+    if (!is_ascii_) return NextBytes(type, what);
+    const std::string_view text = words_.Next();
+    if (text.empty()) Fail("the file ends where " + what + " is expected");
+    const auto value = ParseNumber(text);
+    if (!value && word.empty()) word = text;
+    return value.value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
   size_t NextCount(Type type, Type item_type, const std::string& what) {
@@ -214,7 +227,10 @@ class PlyReader {
           continue;
         }
         corners.resize(numbers_.NextCount(*property.count_type, property.type, what));
-        for (double& corner : corners) corner = numbers_.Next(property.type, what + "'s corner");
+        no_number_.clear();
+        for (double& corner : corners) {
+          corner = numbers_.NextOrNone(property.type, what + "'s corner", no_number_);
+        }
       }
       if (element.name == "face") {
         AddFace(corners);
@@ -224,17 +240,18 @@ class PlyReader {
     }
   }
 
-  int Corner(double value) const {
-    if (!(value >= 0 && value < 2147483647.0) || value != std::floor(value)) {
-      numbers_.Fail("a face's corner is " + FormatNumber(value) + ", which is no vertex");
-    }
-    return static_cast<int>(value);
-  }
-
+  // Corners that can be no vertex become -1; ResolveCorners tells them.
   void AddFace(const std::vector<double>& corners) {
     Face& face = Model().faces.emplace_back();
     face.number = static_cast<int>(Model().faces.size());
-    for (const double corner : corners) face.points.push_back(Corner(corner));
+    for (const double corner : corners) {
+      const bool is_index = corner >= 0 && corner < 2147483647.0 && corner == std::floor(corner);
+      face.points.push_back(is_index ? static_cast<int>(corner) : -1);
+      if (is_index) continue;
+      const std::string word =
+          std::isnan(corner) && !no_number_.empty() ? Quote(no_number_) : FormatNumber(corner);
+      no_index_.try_emplace(face.number - 1, word);
+    }
   }
 
   // Strips one after the other, parted by -1. Every second triangle runs the other way.
@@ -261,20 +278,26 @@ class PlyReader {
   // Faces may stand before the vertices.
   void ResolveCorners() {
     const int num_points = static_cast<int>(Model().points_in_world.size());
-    for (const Face& face : Model().faces) {
-      for (const int point : face.points) {
-        if (point < num_points) continue;
-        throw Error(file_,
-                    "face " + std::to_string(face.number) + " uses vertex " +
-                        std::to_string(point) + " (from 0), but there are " +
-                        std::to_string(num_points));
+    std::vector<BadCorner> bad;
+    for (int place = 0; place < static_cast<int>(Model().faces.size()); ++place) {
+      for (const int point : Model().faces[place].points) {
+        if (point >= 0 && point < num_points) continue;
+        bad.push_back({place,
+                       "uses vertex " + (point < 0 ? no_index_.at(place) : std::to_string(point)) +
+                           " (from 0), but there are " + std::to_string(num_points)});
+        break;
       }
     }
+    if (bad.empty()) return;
+    reading_.warnings.push_back(WarnOfBadCorners(file_, {}, Model(), bad));
+    DropFaces(bad, Model().faces);
   }
 
   const std::filesystem::path& file_;
   PlyHeader header_;
   PlyNumbers numbers_;
+  std::string no_number_;                // a word among the face's corners that is no number
+  std::map<int, std::string> no_index_;  // of faces, by place, the first corner that is none
   MeshReading reading_;
 };
 

@@ -13,6 +13,7 @@ struct TagSlip {
   const char* name;  // "x and y exchanged"
   void (*correct)(ViewTag& tag);
 };
-extern const std::array<TagSlip, 8> kTagSlips;
+// The likelier ones first.
+extern const std::array<TagSlip, 25> kTagSlips;
 
 }  // namespace groundglass

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "scene/face_outline.h"
+#include "scene/outline_sides.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace groundglass {
 namespace {
-
-double Cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 bool IsInsideTriangle(const Eigen::Vector2d& p,
                       const Eigen::Vector2d& a,

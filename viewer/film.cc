@@ -165,7 +165,7 @@ std::vector<std::string> EncoderCommand(const Image8& first_frame,
 
 void FilmOptions::Check() const {
   if (!(frames_per_second > 0 && frames_per_second <= 240)) {
-    throw Error("film options: frames_per_second must be in (0, 240]");
+    throw OptionError("film options: frames_per_second", "must be above 0 and at most 240");
   }
   CheckFromTo(quality, 0, 51, "film options: quality");
   if (ffmpeg.empty()) throw Error("film options: ffmpeg names no program");

@@ -82,7 +82,7 @@ TEST(TrialOptions, RefuseNoTrialsAndNoSigmas) {
               testing::ThrowsMessage<Error>("trial options: sigma_lookat must be above 0, not 0"));
   options.num_trials = 0;
   EXPECT_THAT([&] { options.Check(); },
-              testing::ThrowsMessage<Error>("trial options: num_trials must be 1 or more, not 0"));
+              testing::ThrowsMessage<Error>("trial options: num_trials must be at least 1, not 0"));
 }
 
 }  // namespace

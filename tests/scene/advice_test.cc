@@ -107,7 +107,9 @@ TEST(FindOddities, MillimetresTakenForFeet) {
                 ElementsAre(AllOf(HasSubstr("only assumed"), HasSubstr("give --unit " + unit))));
     // Somebody who says the unit is believed, as long as it can be.
     scene.model.is_unit_assumed = false;
-    EXPECT_EQ(Oddities(scene).size(), scale > 100 ? 1u : 0u);
+    EXPECT_THAT(Oddities(scene),
+                ElementsAre(scale > 100 ? HasSubstr("too large")
+                                        : HasSubstr("is stated and may be wrong")));
     scene.model.unit = *FindUnit(unit);
     EXPECT_THAT(Oddities(scene), IsEmpty());
   }
@@ -123,6 +125,13 @@ TEST(FindOddities, AModelAndTagsInDifferentUnits) {
   scene = ReadBrickAsObj();
   MovePoints(scene, [](const auto& point) { return Eigen::Vector3d(0.3048 * point); });
   EXPECT_THAT(Oddities(scene), ElementsAre(HasSubstr("--unit m --to-unit ft")));
+  // A command that can be typed as it stands, wherever one is.
+  scene.folder = "my hall";
+  scene.model_file = "my hall/model.obj";
+  EXPECT_THAT(Oddities(scene),
+              ElementsAre(HasSubstr("groundglass convert 'my hall/model.obj' 'my "
+                                    "hall/model-in-ft.osu' --unit m --to-unit ft, and from then "
+                                    "on give --model 'my hall/model-in-ft.osu'")));
 }
 
 TEST(FindOddities, AMirroredModel) {

@@ -94,6 +94,22 @@ TEST(ImageKind, TargaGoesByItsName) {
   EXPECT_EQ(ReadSrgb8(folder / "a.tga").values, Ramp(30, 20).values);
 }
 
+TEST(ImageKind, ATargaUnderAnotherNameIsToldByItsHeader) {
+  const TemporaryFolder folder;
+  WritePages(folder / "a.tga", {Ramp(30, 20)});
+  for (const char* name : {"a.jpeg", "a.png", "a"}) {
+    std::filesystem::copy_file(folder / "a.tga", folder / name);
+    EXPECT_EQ(FindImageKind(folder / name).reader, "targa") << name;
+    EXPECT_EQ(ReadSrgb8(folder / name).values, Ramp(30, 20).values) << name;
+  }
+  // A header that no Targa has, and one whose pixels are missing.
+  std::string odd = ReadTextFile(folder / "a.tga");
+  odd[17] = static_cast<char>(odd[17] | 0x40);
+  EXPECT_FALSE(FindImageKind(folder.Write("b.jpeg", odd)).IsImage());
+  EXPECT_FALSE(FindImageKind(folder.Write("c.jpeg", ReadTextFile(folder / "a.tga").substr(0, 24)))
+                   .IsImage());
+}
+
 TEST(ImageKind, CameraRawIsNotTakenForItsThumbnail) {
   // A TIFF's header, one directory of one entry: DNGVersion 1.4.0.0.
   const std::string dng("II*\0\x08\0\0\0\x01\0\x12\xC6\x01\0\x04\0\0\0\x01\x04\0\0\0\0\0\0", 26);

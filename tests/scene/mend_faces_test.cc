@@ -112,6 +112,36 @@ TEST(MendFaces, AHoleThatTouchesTheOutlineIsOpen) {
   EXPECT_NEAR(TriangleArea(model, 0), 50 - 4 - 1, 1e-12);
 }
 
+// As above, its first window and the second one each wound as the wall is.
+TEST(MendFaces, AHoleThatTouchesTheOutlineAndRunsTheSameWayIsTurned) {
+  for (int turned = 1; turned < 4; ++turned) {
+    PolygonModel model;
+    const std::vector<int> wall = AddRectangle(0, 0, 10, 5, model);
+    std::vector<int> corner_hole = {AddPoint(1, 3, model), AddPoint(3, 1, model)};
+    const int d = AddPoint(6, 0, model);
+    std::vector<int> side_hole = {AddPoint(6, 2, model), AddPoint(7, 2, model)};
+    if (turned & 1) std::reverse(corner_hole.begin(), corner_hole.end());
+    if (turned & 2) std::reverse(side_hole.begin(), side_hole.end());
+    model.faces.push_back({{wall[0],
+                            corner_hole[0],
+                            corner_hole[1],
+                            wall[0],
+                            d,
+                            side_hole[0],
+                            side_hole[1],
+                            d,
+                            wall[1],
+                            wall[2],
+                            wall[3]},
+                           ""});
+    const MendedFaces mended = Mend(model);
+    ASSERT_THAT(mended.usable, ElementsAre(0)) << turned;
+    EXPECT_THAT(mended.warnings, ElementsAre(HasSubstr("it is turned")));
+    EXPECT_NEAR(ComputeFaceArea(model, 0), 50 - 4 - 1, 1e-12) << turned;
+    EXPECT_NEAR(TriangleArea(model, 0), 50 - 4 - 1, 1e-12) << turned;
+  }
+}
+
 TEST(MendFaces, RandomFramesAreCutIntoTrianglesOfTheirArea) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> place(0, 1);
@@ -175,7 +205,8 @@ TEST(MendFaces, FacesBackToBackAreDoublesAndTheFirstOnesFrontCounts) {
   EXPECT_THAT(mended.usable, ElementsAre(0, 2));
   EXPECT_THAT(mended.warnings,
               ElementsAre("m.osu: 1 face lies twice and is kept once, the first of each: face 1 is "
-                          "also face 2; they lie back to back, and the first one's front counts"));
+                          "also face 2; they lie back to back, and the first one's front counts",
+                          HasSubstr("1 face lies within another one in the same plane")));
 }
 
 TEST(MendFaces, WhatCoversItselfIsAFault) {

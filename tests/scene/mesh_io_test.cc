@@ -91,7 +91,8 @@ TEST(Ply, FaultsNameTheirLine) {
               HasSubstr("m.ply:11: a vertex's z: 'zero' is not a number"));
   EXPECT_THAT(message(head + "0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n"), HasSubstr("m.ply:12: "));
   EXPECT_THAT(message(head + "0 0 0\n1 0 0\n0 1 0\n9 0 1 2\n"), HasSubstr("m.ply:13: "));
-  EXPECT_THAT(message(head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 0.5\n"), HasSubstr("m.ply:13: "));
+  EXPECT_THAT(message(head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 0.5\n"),
+              HasSubstr("m.ply: face 1 uses vertex 0.5 (from 0), but there are 3"));
   EXPECT_THAT(message("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
                       "property float y\nproperty float z\nend_header\n1 2 3\n"),
               HasSubstr("a cloud of points cannot be textured"));

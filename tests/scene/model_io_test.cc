@@ -101,7 +101,7 @@ TEST(Obj, BadOnesGiveOneLine) {
   EXPECT_THAT(message("v 0 0 0\nf 0 1 1\n"), HasSubstr("m.obj:2: point 0 is outside 1 to 1"));
   EXPECT_THAT(message("v 0 0 0\nf a b c\n"),
               HasSubstr("m.obj:2: 'a' is not the number of a point"));
-  EXPECT_THAT(message(""), HasSubstr("m.obj: this model has no faces"));
+  EXPECT_THAT(message("# none\n"), HasSubstr("m.obj: this model has no faces"));
   EXPECT_THAT(message("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), HasSubstr("face 1 has no area"));
 }
 

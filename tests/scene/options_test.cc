@@ -14,11 +14,18 @@ TEST(CheckOption, SaysTheFieldTheRuleAndTheValue) {
   EXPECT_EQ(ThrownMessage([] { CheckFromTo(5, 1, 4, "options: size"); }),
             "options: size must be from 1 to 4, not 5");
   EXPECT_EQ(ThrownMessage([] { CheckAtLeast(-0.5, 0, "options: size"); }),
-            "options: size must be 0 or more, not -0.5");
+            "options: size must be at least 0, not -0.5");
   EXPECT_EQ(ThrownMessage([] { CheckAbove(0, 0, "options: size"); }),
             "options: size must be above 0, not 0");
   EXPECT_EQ(ThrownMessage([] { CheckFinite(kInfinity, "options: size"); }),
             "options: size must be a finite number, not inf");
+  try {
+    CheckAbove(0, 0, "options: size");
+    FAIL();
+  } catch (const OptionError& error) {
+    EXPECT_EQ(error.field(), "options: size");
+    EXPECT_EQ(error.rule(), "must be above 0, not 0");
+  }
   CheckFromTo(1, 1, 4, "");
   CheckFromTo(4, 1, 4, "");
   CheckAtLeast(0, 0, "");

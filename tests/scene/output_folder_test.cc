@@ -60,14 +60,16 @@ TEST(Manifest, KeepsTheStages) {
   const TemporaryFolder folder;
   EXPECT_TRUE(ReadStages(folder.path()).empty());
   Manifest manifest;
-  manifest.stages = {{"register", "00", true, {"registration.json", "views/s1.view"}},
-                     {"texture", "01", false, {}}};
+  manifest.stages = {
+      {"register", "00", true, {"registration.json", "views/s1.view"}, {{"views/s1.view", "ab"}}},
+      {"texture", "01", false, {}, {}}};
   WriteManifest(folder.path(), manifest);
   const std::vector<StageRecord> stages = ReadStages(folder.path());
   ASSERT_EQ(stages.size(), 2u);
   EXPECT_EQ(stages[0].key, "00");
   EXPECT_TRUE(stages[0].is_complete);
   EXPECT_EQ(stages[0].files, manifest.stages[0].files);
+  EXPECT_EQ(stages[0].sha256_of_files, manifest.stages[0].sha256_of_files);
   EXPECT_FALSE(stages[1].is_complete);
   folder.Write("manifest.json", "{\"program\": \"groundglass\", \"stages\": 3}");
   EXPECT_TRUE(ReadStages(folder.path()).empty());

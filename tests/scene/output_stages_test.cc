@@ -52,6 +52,47 @@ TEST(OutputStages, AStageThatWasStoppedIsNotComplete) {
   EXPECT_TRUE(stages.IsComplete("register", "one"));
 }
 
+TEST(OutputStages, AFileThatIsCutShortOrChangedIsNotKept) {
+  for (const std::string text : {"x", "x 9", ""}) {
+    const Folder folder;
+    folder.Write("views/s2.view", text);
+    OutputStages stages(folder.path(), {});
+    EXPECT_FALSE(stages.IsComplete("register", "one")) << text;
+    EXPECT_TRUE(stages.Has("register", "one", "views/s1.view")) << text;
+    EXPECT_FALSE(stages.Has("register", "one", "views/s2.view")) << text;
+    EXPECT_EQ(stages.FindChanged("register"), std::vector<std::string>{"views/s2.view"});
+    stages.Begin("register", "one", {"registration.json", "views/s1.view", "views/s2.view"});
+    EXPECT_TRUE(folder.Has("views/s1.view")) << text;
+    EXPECT_FALSE(folder.Has("views/s2.view")) << "a stop now would leave it";
+    folder.Write("views/s2.view", "x 2");
+    stages.Finish("register");
+    EXPECT_TRUE(stages.IsComplete("register", "one")) << text;
+    EXPECT_TRUE(stages.FindChanged("register").empty());
+  }
+}
+
+TEST(OutputStages, WhatAStageWritesBetweenTwoBeginningsStays) {
+  const Folder folder;
+  OutputStages stages(folder.path(), {});
+  stages.Begin("register", "one", {"views/s1.view"});
+  folder.Write("views/s1.view", "x 7");
+  stages.Begin("register", "one", {"views/s1.view", "registration.json"});
+  EXPECT_EQ(ReadTextFile(folder / "views/s1.view"), "x 7");
+  folder.Write("registration.json", "{}");
+  stages.Finish("register");
+  EXPECT_TRUE(OutputStages(folder.path(), {}).IsComplete("register", "one"));
+}
+
+TEST(OutputStages, ARecordOfAnEarlierVersionIsNotComplete) {
+  const Folder folder;
+  folder.Write("manifest.json",
+               R"({"program": "groundglass", "stages": [{"name": "register", "key": "one",
+                   "is_complete": true, "files": ["registration.json"]}]})");
+  const OutputStages stages(folder.path(), {});
+  EXPECT_TRUE(stages.IsFrom("register", "one"));
+  EXPECT_FALSE(stages.IsComplete("register", "one"));
+}
+
 TEST(OutputStages, WhatAnotherKeyLeftIsRemovedAndNothingElse) {
   const Folder folder;
   folder.Write("views/mine.txt", "somebody's own");
@@ -89,7 +130,7 @@ TEST(OutputStages, AManifestThatNamesFilesElsewhereRemovesNone) {
   const TemporaryFolder folder;
   const fs::path letter = folder.Write("letter.txt", "Dear");
   Manifest manifest;
-  manifest.stages = {{"register", "one", true, {"../letter.txt", letter.string(), ".", ""}}};
+  manifest.stages = {{"register", "one", true, {"../letter.txt", letter.string(), ".", ""}, {}}};
   fs::create_directories(folder / "out");
   WriteManifest(folder / "out", manifest);
   OutputStages stages(folder / "out", {});

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "scene/face_outline.h"
+#include "scene/outline_sides.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace groundglass {
 namespace {
-
-double Cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 // The side of the line a-b on which p lies: -1, 0 (on it, within `tolerance`), 1.
 int SideOf(const Eigen::Vector2d& a,
@@ -50,70 +44,6 @@ bool SegmentsMeet(const Eigen::Vector2d& a,
          (b_side == 0 && IsWithin(c, d, b, tolerance));
 }
 
-// One number for all corners at exactly the same place: that of the first.
-template <typename Point>
-std::vector<int> WeldCorners(const std::vector<Point>& corners) {
-  std::vector<int> order(corners.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto compare = [&](int a, int b) {
-    for (int axis = 0; axis < corners[a].size(); ++axis) {
-      if (corners[a][axis] != corners[b][axis]) {
-        return corners[a][axis] < corners[b][axis] ? -1 : 1;
-      }
-    }
-    return 0;
-  };
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    const int sign = compare(a, b);
-    return sign != 0 ? sign < 0 : a < b;
-  });
-  std::vector<int> weld(corners.size());
-  for (size_t i = 0; i < order.size(); ++i) {
-    const bool is_same = i > 0 && compare(order[i - 1], order[i]) == 0;
-    weld[order[i]] = is_same ? weld[order[i - 1]] : order[i];
-  }
-  return weld;
-}
-
-bool IsAnyRepeated(const std::vector<int>& weld) {
-  for (size_t i = 0; i < weld.size(); ++i) {
-    if (weld[i] != static_cast<int>(i)) return true;
-  }
-  return false;
-}
-
-std::vector<OutlineSide> AllSides(const std::vector<int>& weld) {
-  std::vector<OutlineSide> sides;
-  const int n = static_cast<int>(weld.size());
-  for (int i = 0; i < n; ++i) {
-    const int next = (i + 1) % n;
-    if (weld[i] != weld[next]) sides.push_back({i, next});
-  }
-  return sides;
-}
-
-// The sides that are not walked the other way as well.
-std::vector<OutlineSide> WithoutBridges(const std::vector<OutlineSide>& sides,
-                                        const std::vector<int>& weld) {
-  std::map<std::pair<int, int>, std::vector<size_t>> open;  // not yet walked back
-  std::vector<char> is_bridge(sides.size(), 0);
-  for (size_t i = 0; i < sides.size(); ++i) {
-    const std::pair<int, int> way(weld[sides[i].start], weld[sides[i].end]);
-    const auto back = open.find({way.second, way.first});
-    if (back != open.end() && !back->second.empty()) {
-      is_bridge[i] = is_bridge[back->second.back()] = 1;
-      back->second.pop_back();
-    } else {
-      open[way].push_back(i);
-    }
-  }
-  std::vector<OutlineSide> left;
-  for (size_t i = 0; i < sides.size(); ++i) {
-    if (!is_bridge[i]) left.push_back(sides[i]);
-  }
-  return left;
-}
-
 class OutlineParter {
  public:
   OutlineParter(const std::vector<Eigen::Vector2d>& outline, double tolerance)
@@ -138,7 +68,16 @@ class OutlineParter {
       return result;
     }
     Trace(result);
-    if (!result.meeting) Orient(result);
+    if (!result.meeting) {
+      Orient(result);
+    } else if (TurnTouchingRings()) {
+      OutlineLoops turned = {{}, false, true, std::nullopt};
+      Trace(turned);
+      if (turned.meeting) return result;
+      Orient(turned);
+      turned.is_turned = true;
+      return turned;
+    }
     return result;
   }
 
@@ -264,6 +203,54 @@ class OutlineParter {
     }
   }
 
+  // Where a hole that touches its outline runs the same way round, sides that come and sides that
+  // leave do not alternate. Parts the outline into rings at the corners that it comes back to, and
+  // turns those that run the wrong way. False if there are none.
+  bool TurnTouchingRings() {
+    std::map<int, std::vector<size_t>> leaving;
+    for (size_t i = 0; i < sides_.size(); ++i) leaving[weld_[sides_[i].start]].push_back(i);
+    std::vector<char> is_used(sides_.size(), 0);
+    // The next side from this one's end, in the order in which the outline was written.
+    const auto next_after = [&](size_t side) {
+      size_t best = sides_.size();
+      size_t best_steps = sides_.size();
+      for (const size_t candidate : leaving[weld_[sides_[side].end]]) {
+        const size_t steps = (candidate + sides_.size() - side) % sides_.size();
+        if (is_used[candidate] || steps >= best_steps) continue;
+        best = candidate;
+        best_steps = steps;
+      }
+      return best;
+    };
+    OutlineLoops rings;
+    for (size_t first = 0; first < sides_.size(); ++first) {
+      if (is_used[first]) continue;
+      std::vector<size_t> way;
+      for (size_t side = first; side < sides_.size(); side = next_after(side)) {
+        is_used[side] = 1;
+        way.push_back(side);
+        size_t start = way.size();
+        while (start > 0 && weld_[sides_[way[start - 1]].start] != weld_[sides_[side].end]) --start;
+        if (start == 0) continue;
+        OutlineLoops::Loop& ring = rings.loops.emplace_back();
+        for (size_t i = start - 1; i < way.size(); ++i) {
+          ring.corners.push_back(sides_[way[i]].start);
+        }
+        way.resize(start - 1);
+      }
+      if (!way.empty()) return false;
+    }
+    Orient(rings);
+    if (!rings.is_turned) return false;
+    sides_.clear();
+    for (const OutlineLoops::Loop& ring : rings.loops) {
+      for (size_t i = 0; i < ring.corners.size(); ++i) {
+        sides_.push_back({ring.corners[i], ring.corners[(i + 1) % ring.corners.size()]});
+      }
+    }
+    return true;
+  }
+
   double SignedArea(const OutlineLoops::Loop& loop) const {
     double sum = 0;
     const Eigen::Vector2d& origin = At(loop.corners[0]);
@@ -330,122 +317,12 @@ class OutlineParter {
   std::vector<OutlineSide> sides_;
 };
 
-// Whether the way from a corner of the outline to a point starts into the outline's area.
-bool StartsInside(const Eigen::Vector2d& previous,
-                  const Eigen::Vector2d& corner,
-                  const Eigen::Vector2d& next,
-                  const Eigen::Vector2d& point) {
-  const Eigen::Vector2d back = previous - corner;
-  const Eigen::Vector2d out = next - corner;
-  const Eigen::Vector2d way = point - corner;
-  const double turn = Cross2(-back, out);
-  if (turn == 0 && back.dot(out) > 0) return true;  // the end of a bridge
-  if (turn >= 0) return Cross2(out, way) > 0 && Cross2(way, back) > 0;
-  return !(Cross2(back, way) >= 0 && Cross2(way, out) >= 0);
-}
-
-// Whether the segment a-b has a point in common with p-q other than a or b.
-bool IsBlocked(const Eigen::Vector2d& a,
-               const Eigen::Vector2d& b,
-               const Eigen::Vector2d& p,
-               const Eigen::Vector2d& q) {
-  const auto lies_between = [&](const Eigen::Vector2d& point) {
-    return point != a && point != b && Cross2(b - a, point - a) == 0 &&
-           (point - a).dot(b - a) > 0 && (point - b).dot(a - b) > 0;
-  };
-  if (lies_between(p) || lies_between(q)) return true;
-  if (p == a || p == b || q == a || q == b) return false;
-  const double p_side = Cross2(b - a, p - a);
-  const double q_side = Cross2(b - a, q - a);
-  const double a_side = Cross2(q - p, a - p);
-  const double b_side = Cross2(q - p, b - p);
-  return ((p_side > 0) != (q_side > 0)) && ((a_side > 0) != (b_side > 0));
-}
-
-// Joins a hole to the outline around it, from its rightmost corner (Eberly, Triangulation by Ear
-// Clipping): holes that reach farther right are joined already, so some corner is in view.
-void JoinHole(const std::vector<Eigen::Vector2d>& outline,
-              std::vector<int> hole,
-              std::vector<int>& joined) {
-  std::rotate(
-      hole.begin(),
-      std::max_element(
-          hole.begin(), hole.end(), [&](int a, int b) { return outline[a].x() < outline[b].x(); }),
-      hole.end());
-  const Eigen::Vector2d from = outline[hole[0]];
-  const size_t n = joined.size();
-  std::vector<std::pair<double, size_t>> candidates;
-  for (size_t i = 0; i < n; ++i) {
-    candidates.emplace_back((outline[joined[i]] - from).squaredNorm(), i);
-  }
-  std::sort(candidates.begin(), candidates.end());
-  size_t place = candidates[0].second;
-  for (const auto& [distance, i] : candidates) {
-    const Eigen::Vector2d& to = outline[joined[i]];
-    if (to.x() < from.x()) continue;
-    if (!StartsInside(outline[joined[(i + n - 1) % n]], to, outline[joined[(i + 1) % n]], from)) {
-      continue;
-    }
-    bool is_free = true;
-    for (size_t k = 0; k < n && is_free; ++k) {
-      is_free = !IsBlocked(from, to, outline[joined[k]], outline[joined[(k + 1) % n]]);
-    }
-    if (!is_free) continue;
-    place = i;
-    break;
-  }
-  std::vector<int> detour = hole;
-  detour.push_back(hole[0]);
-  detour.push_back(joined[place]);
-  joined.insert(
-      joined.begin() + static_cast<std::ptrdiff_t>(place) + 1, detour.begin(), detour.end());
-}
-
 }  // namespace
-
-Eigen::Vector3d DoubledVectorArea(const PolygonModel& model, int face) {
-  const std::vector<int>& points = model.faces[face].points;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d& origin = model.points_in_world[points[0]];
-  for (size_t i = 1; i + 1 < points.size(); ++i) {
-    sum += (model.points_in_world[points[i]] - origin)
-               .cross(model.points_in_world[points[i + 1]] - origin);
-  }
-  return sum;
-}
-
-std::vector<OutlineSide> FindBorders(const PolygonModel& model, int face) {
-  std::vector<Eigen::Vector3d> corners;
-  for (const int point : model.faces[face].points) corners.push_back(model.points_in_world[point]);
-  const std::vector<int> weld = WeldCorners(corners);
-  const std::vector<OutlineSide> sides = AllSides(weld);
-  return IsAnyRepeated(weld) ? WithoutBridges(sides, weld) : sides;
-}
 
 OutlineLoops PartOutline(const std::vector<Eigen::Vector2d>& outline,
                          double tolerance,
                          bool look_for_meeting) {
   return OutlineParter(outline, tolerance).Part(look_for_meeting);
-}
-
-std::vector<std::vector<int>> BridgeHoles(const std::vector<Eigen::Vector2d>& outline,
-                                          const OutlineLoops& loops) {
-  std::vector<std::vector<int>> outlines;
-  for (size_t i = 0; i < loops.loops.size(); ++i) {
-    if (loops.loops[i].inside_of >= 0) continue;
-    std::vector<int>& joined = outlines.emplace_back(loops.loops[i].corners);
-    std::vector<std::pair<double, const std::vector<int>*>> holes;
-    for (const OutlineLoops::Loop& hole : loops.loops) {
-      if (hole.inside_of != static_cast<int>(i)) continue;
-      double right = -1e300;
-      for (const int corner : hole.corners) right = std::max(right, outline[corner].x());
-      holes.emplace_back(right, &hole.corners);
-    }
-    std::stable_sort(
-        holes.begin(), holes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (const auto& [right, corners] : holes) JoinHole(outline, *corners, joined);
-  }
-  return outlines;
 }
 
 }  // namespace groundglass

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+// Nothing is passed over in silence: other models, names that no photograph has, files that were
+// changed, pictures that cannot be made.
+#include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Told, WhichOfSeveralModelsIsRead) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1"});
+  fs::copy_file(scene / "model.osu", scene / "older.OSU");
+  const auto said = [&](const char* command, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {
+        command, scene.string(), "-o", (work / "out").string(), "--dry-run"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramRun run = RunProgram(words);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.err;
+  };
+  for (const char* command : {"run", "register", "invrender"}) {
+    EXPECT_THAT(
+        said(command, {}),
+        HasSubstr("the model that is read is model.osu; older.OSU beside it is not (--model "
+                  "FILE chooses another)"));
+    // Whoever has chosen knows.
+    EXPECT_THAT(said(command, {"--model", (scene / "older.OSU").string()}),
+                Not(HasSubstr("beside it")));
+  }
+}
+
+TEST(Told, WhichPhotographsThereAreForATableOfPairs) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1", "s2"});
+  WriteAll(scene / "images/s2.jpg", "no picture");
+  const auto run = [&](const std::string& pairs) {
+    WriteAll(scene / "pairs.csv", "image,face\n" + pairs);
+    return RunProgram({"run", scene.string(), "-o", (work / "out").string(), "--dry-run"});
+  };
+  EXPECT_THAT(run("s1,1\ns9,1\n").err,
+              HasSubstr("pairs.csv:3: no photograph is called 's9'; there are s1 s2"));
+  EXPECT_THAT(run("s01,1\n").err, HasSubstr("is it s1.jpg?"));
+  EXPECT_EQ(run("s9,1\n").status, 1);
+  // One that cannot be read is there all the same.
+  EXPECT_EQ(run("s1,1\ns2,1\n").status, 0);
+}
+
+TEST(Told, WhyOnePhotographGivesNoStillsAndWhatWasChanged) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1"});
+  const std::vector<std::string> words = {
+      "run", scene.string(), "-o", (work / "out").string(), "--max-texture", "512", "--json"};
+  const ProgramRun run = RunProgram(words);
+  ASSERT_TRUE(run.status == 0 || run.status == 3) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("no pictures from new viewpoints"));
+  EXPECT_THAT(json::parse(run.out)["warnings"].dump(), HasSubstr("only s1 has a camera"));
+  std::vector<std::string> without = words;
+  without.insert(without.end(), {"--stills", "0"});
+  EXPECT_THAT(RunProgram(without).err, Not(HasSubstr("no pictures from new viewpoints")));
+
+  // Files that are cut short or garbled are made again, and it is said.
+  const fs::path out = work / "out";
+  const std::string first = Fingerprint(out);
+  const auto half = [](const std::string& bytes) { return bytes.substr(0, bytes.size() / 2); };
+  const auto flipped = [](std::string bytes) {
+    bytes[bytes.size() / 2] ^= 1;
+    return bytes;
+  };
+  for (const auto& [file, bytes] :
+       {std::pair<std::string, std::string>("model.glb", flipped(ReadAll(out / "model.glb"))),
+        {"overlays/s1.jpg", half(ReadAll(out / "overlays/s1.jpg"))},
+        {"views/s1.view", half(ReadAll(out / "views/s1.view"))},
+        {"faces/s1.png", ""},
+        {"registration.json", half(ReadAll(out / "registration.json"))},
+        {"cameras/images.txt", "none"}}) {
+    WriteAll(out / file, bytes);
+    const ProgramRun again = RunProgram(without);
+    EXPECT_EQ(again.status, run.status) << again.err;
+    EXPECT_THAT(again.err, HasSubstr(file + " has changed since it was written"));
+    EXPECT_EQ(Fingerprint(out), first) << file;
+  }
+  EXPECT_THAT(RunProgram(without).err, Not(HasSubstr("has changed since")));
+}
+
+}  // namespace
+}  // namespace groundglass

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+// Kinds of mistakes that the tags alone do not tell, or tell wrongly: the bundled hall with each.
+#include "scene/advice.h"
+#include "scene/frames.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace groundglass {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::filesystem::path kHall =
+    std::filesystem::path(GROUNDGLASS_SOURCE_DIR) / "datasets-synthetic" / "brick";
+
+using Moved = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
+
+Scene Hall() {
+  static const Scene scene = ReadScene(kHall);
+  return scene;
+}
+
+Scene HallWithModel(const Moved& moved, bool turns_faces = false) {
+  Scene scene = Hall();
+  for (Eigen::Vector3d& point : scene.model.points_in_world) point = moved(point);
+  if (!turns_faces) return scene;
+  for (Face& face : scene.model.faces) std::reverse(face.points.begin(), face.points.end());
+  return scene;
+}
+
+Scene HallWithTags(const Moved& moved_in_site) {
+  Scene scene = Hall();
+  for (Photograph& photograph : scene.photographs) {
+    photograph.tag.position_in_site = moved_in_site(photograph.tag.position_in_site);
+    photograph.tag.lookat_in_site = moved_in_site(photograph.tag.lookat_in_site);
+  }
+  return scene;
+}
+
+std::vector<std::string> Told(const Scene& scene,
+                              bool with_pictures,
+                              const ModelOptions& options = {}) {
+  std::vector<std::string> lines;
+  for (const Advice& advice : FindOddities(scene, options, with_pictures)) {
+    lines.push_back(FormatAdvice(advice));
+  }
+  return lines;
+}
+
+TEST(FindOddities, AnOsuWithYUp) {
+  // In the file x, z, y of `site`; read as .osu, the second number counts south.
+  const auto y_up = [](const auto& p) { return Eigen::Vector3d(p.x(), -p.z(), -p.y()); };
+  EXPECT_THAT(Told(HallWithModel(y_up), true), ElementsAre(HasSubstr("; give --up y")));
+  EXPECT_THAT(Told(HallWithModel(y_up, true), true),
+              ElementsAre(HasSubstr("; give --up y --flip-faces")));
+  // x, z, y of `world`: z counts north, which no option reads.
+  const auto left_handed = [](const auto& p) { return Eigen::Vector3d(p.x(), -p.z(), p.y()); };
+  for (const bool turns_faces : {false, true}) {
+    EXPECT_THAT(Told(HallWithModel(left_handed, turns_faces), true),
+                ElementsAre(AllOf(HasSubstr("its y axis is up and its z axis counts north"),
+                                  HasSubstr("change the sign of every z, and give --up y"))));
+  }
+}
+
+TEST(FindOddities, AModelMirroredAboutItsMiddle) {
+  const Eigen::Vector3d middle = ComputeBounds(Hall().model).Center();
+  const auto mirrored = [&](const auto& p) {
+    return Eigen::Vector3d(2 * middle.x() - p.x(), p.y(), p.z());
+  };
+  EXPECT_THAT(Told(HallWithModel(mirrored), true),
+              ElementsAre(AllOf(HasSubstr("east and west exchanged"), HasSubstr("82 - x"))));
+  // With its fronts in sight nothing but the pictures tells.
+  ModelOptions options;
+  options.flip_faces = true;
+  EXPECT_THAT(Told(HallWithModel(mirrored, true), true, options),
+              ElementsAre(AllOf(HasSubstr("as the pictures' edges tell"),
+                                HasSubstr("82 - x, and leave out --flip-faces"))));
+}
+
+TEST(FindOddities, AllHeightsOffByTheSame) {
+  for (const double datum : {-20.0, -8.0, 8.0, 20.0}) {
+    const auto lines = Told(HallWithTags([&](const auto& p) {
+                              return Eigen::Vector3d(p + Eigen::Vector3d(0, 0, datum));
+                            }),
+                            true);
+    EXPECT_THAT(lines,
+                ElementsAre(AllOf(HasSubstr("they count from another zero"),
+                                  HasSubstr(datum > 0 ? " less: " : " more: "))))
+        << datum;
+  }
+  // Photographs from a height, of a model and with tags that say so: the pictures suit them.
+  Scene scene = Hall();
+  const double rise = 20;
+  for (Eigen::Vector3d& point : scene.model.points_in_world) point.z() += rise;
+  for (Photograph& photograph : scene.photographs) {
+    photograph.tag.position_in_site.z() += rise;
+    photograph.tag.lookat_in_site.z() += rise;
+  }
+  const Eigen::Vector3d low = ComputeBounds(scene.model).min - Eigen::Vector3d(100, 100, rise);
+  const int first = static_cast<int>(scene.model.points_in_world.size());
+  for (const Eigen::Vector3d& corner :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)}) {
+    scene.model.points_in_world.push_back(low + corner);
+  }
+  scene.model.faces.push_back({{first, first + 1, first + 2}, "the street below", 0});
+  EXPECT_THAT(Told(scene, true), IsEmpty());
+}
+
+TEST(FindOddities, AUnitThatWasStatedWrongly) {
+  Scene scene = Hall();
+  scene.model.is_unit_assumed = false;
+  scene.model.unit = LengthUnit::kMetre;
+  EXPECT_THAT(
+      Told(scene, false),
+      ElementsAre(AllOf(HasSubstr("is stated and may be wrong"), HasSubstr("give --unit ft"))));
+  // From a drone people look down.
+  for (Photograph& photograph : scene.photographs) photograph.tag.lookat_in_site.z() = 2;
+  EXPECT_THAT(Told(scene, false), IsEmpty());
+}
+
+TEST(FindOddities, OneAspectThatIsTheWrongWayRound) {
+  Scene scene = Hall();
+  scene.photographs[4].tag.aspect = 0.667;
+  EXPECT_THAT(Told(scene, true),
+              ElementsAre(AllOf(HasSubstr("aspect 0.667 does not suit"), HasSubstr("write 1.5"))));
+}
+
+TEST(FindOddities, SlipsOfTheDecimalPointAndTheSign) {
+  const auto with = [](const std::function<void(ViewTag&)>& spoil) {
+    Scene scene = Hall();
+    spoil(std::find_if(scene.photographs.begin(), scene.photographs.end(), [](const auto& one) {
+            return one.name == "s5";
+          })->tag);
+    return Told(scene, false);
+  };
+  EXPECT_THAT(with([](ViewTag& tag) { tag.position_in_site.x() /= 10; }),
+              ElementsAre(HasSubstr("with ten times x it would")));
+  EXPECT_THAT(with([](ViewTag& tag) { tag.lookat_in_site.z() *= 10; }),
+              ElementsAre(HasSubstr("with a tenth of k it would")));
+  EXPECT_THAT(with([](ViewTag& tag) { tag.lookat_in_site.x() *= -1; }),
+              ElementsAre(HasSubstr("with the sign of i changed")));
+  EXPECT_THAT(with([](ViewTag& tag) { tag.lookat_in_site.z() *= -1; }),
+              ElementsAre(HasSubstr("with the sign of k changed")));
+}
+
+TEST(FindOddities, TheRasterOfAModelWhoseFacesItSpoiled) {
+  // A window of 0.4 m far from the origin, through floats: its corners fall together.
+  const TemporaryFolder folder;
+  folder.Write("model.osu",
+               "% unit: m\n8 2\n389412.34375 -5820077.5 35\n389413.34375 -5820078.5 35\n"
+               "389413.34375 -5820078.5 38\n389412.34375 -5820077.5 38\n"
+               "389412.625 -5820079 35\n389412.625 -5820079 35\n"
+               "389412.625 -5820079 36\n389412.625 -5820078 36\n"
+               "4 1 2 3 4\n4 5 6 5 6\n");
+  const SceneCheck check = CheckScene(folder.path());
+  ASSERT_TRUE(check.scene.model.faces.empty());
+  EXPECT_THAT(Told(check.scene, false),
+              ElementsAre(AllOf(HasSubstr("y (north) lie on a raster of 0.5 m"),
+                                HasSubstr("the faults of its faces come of it"))));
+}
+
+}  // namespace
+}  // namespace groundglass
