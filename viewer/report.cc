@@ -358,7 +358,7 @@ void ReportOptions::Check() const {
   CheckFromTo(picture_width_px, 16, 10000, "report options: picture_width_px");
 }
 
-std::string FormatReport(const fs::path& out_folder,
+std::string MakeReport(const fs::path& out_folder,
                          const Scene* scene,
                          const ReportOptions& options) {
   options.Check();
