@@ -128,7 +128,7 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
     (column < 3 ? behind.position_in_site[column] : behind.lookat_in_site[column - 3]) -= step;
     Eigen::Matrix<double, 5, 1> change =
         (ParametersFromTag(ahead) - ParametersFromTag(behind)).head<5>();
-    change[3] = std::remainder(change[3], 360.0);
+    change[kYaw] = std::remainder(change[kYaw], 360.0);
     by_measured.col(column) = change / (2 * step);
   }
   Eigen::Matrix<double, 6, 1> measured_sigmas;
@@ -144,11 +144,11 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
   double shift_y = shift_x;
   double k1 = noted_sigmas.k1.value_or(options.k1);
   if (lens) {
-    prior.mean[6] = lens->view_angle_deg;
-    prior.mean[7] = lens->aspect;
-    prior.mean[8] = lens->shift_x;
-    prior.mean[9] = lens->shift_y;
-    prior.mean[10] = lens->k1;
+    prior.mean[kViewAngle] = lens->view_angle_deg;
+    prior.mean[kAspect] = lens->aspect;
+    prior.mean[kShiftX] = lens->shift_x;
+    prior.mean[kShiftY] = lens->shift_y;
+    prior.mean[kK1] = lens->k1;
     prior.measured.k2 = lens->k2;
     prior.measured.k3 = lens->k3;
     prior.measured.p1 = lens->p1;
@@ -176,12 +176,12 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
     free_at_least("k1", options.k1, k1);
   }
   const double independent[6] = {roll, view_angle, aspect, shift_x, shift_y, k1};
-  for (int i = 0; i < 6; ++i) covariance(5 + i, 5 + i) = independent[i] * independent[i];
+  for (int i = 0; i < 6; ++i) covariance(kRoll + i, kRoll + i) = independent[i] * independent[i];
 
   for (const std::string& name : options.lock) {
     for (int i = 0; i < kNumCameraParameters; ++i) {
       const bool named =
-          kCameraParameterNames[i] == name || (name == "shift" && (i == 8 || i == 9));
+          kCameraParameterNames[i] == name || (name == "shift" && (i == kShiftX || i == kShiftY));
       if (!named) continue;
       covariance.row(i).setZero();
       covariance.col(i).setZero();

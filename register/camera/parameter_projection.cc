@@ -13,23 +13,23 @@ ParameterProjection::ParameterProjection(const CameraParameters& parameters,
                                          int width_px,
                                          int height_px)
     : width_px_(width_px), lens_(lens) {
-  lens_.k1 = parameters[10];
-  position_in_world_ = WorldFromSite(parameters.head<3>());
-  const double yaw = RadiansFromDegrees(parameters[3]);
-  const double pitch = RadiansFromDegrees(parameters[4]);
-  const double roll = RadiansFromDegrees(parameters[5]);
+  lens_.k1 = parameters[kK1];
+  position_in_world_ = parameters.head<3>();
+  const double yaw = RadiansFromDegrees(parameters[kYaw]);
+  const double pitch = RadiansFromDegrees(parameters[kPitch]);
+  const double roll = RadiansFromDegrees(parameters[kRoll]);
   const double sin_yaw = std::sin(yaw), cos_yaw = std::cos(yaw);
   const double sin_pitch = std::sin(pitch), cos_pitch = std::cos(pitch);
   const double sin_roll = std::sin(roll), cos_roll = std::cos(roll);
 
   // Rows of the level camera (right, down, forward) in `world`, and their derivatives.
   Eigen::Matrix3d level, level_by_yaw, level_by_pitch;
-  level << -cos_yaw, -sin_yaw, 0, sin_pitch * sin_yaw, -sin_pitch * cos_yaw, -cos_pitch,
-      sin_yaw * cos_pitch, -cos_yaw * cos_pitch, sin_pitch;
-  level_by_yaw << sin_yaw, -cos_yaw, 0, sin_pitch * cos_yaw, sin_pitch * sin_yaw, 0,
-      cos_yaw * cos_pitch, sin_yaw * cos_pitch, 0;
-  level_by_pitch << 0, 0, 0, cos_pitch * sin_yaw, -cos_pitch * cos_yaw, sin_pitch,
-      -sin_yaw * sin_pitch, cos_yaw * sin_pitch, cos_pitch;
+  level << sin_yaw, -cos_yaw, 0, sin_pitch * cos_yaw, sin_pitch * sin_yaw, -cos_pitch,
+      cos_yaw * cos_pitch, sin_yaw * cos_pitch, sin_pitch;
+  level_by_yaw << cos_yaw, sin_yaw, 0, -sin_pitch * sin_yaw, sin_pitch * cos_yaw, 0,
+      -sin_yaw * cos_pitch, cos_yaw * cos_pitch, 0;
+  level_by_pitch << 0, 0, 0, cos_pitch * cos_yaw, cos_pitch * sin_yaw, sin_pitch,
+      -cos_yaw * sin_pitch, -sin_yaw * sin_pitch, cos_pitch;
   Eigen::Matrix3d turn, turn_by_roll;
   turn << cos_roll, sin_roll, 0, -sin_roll, cos_roll, 0, 0, 0, 1;
   turn_by_roll << -sin_roll, cos_roll, 0, -cos_roll, -sin_roll, 0, 0, 0, 0;
@@ -38,17 +38,17 @@ ParameterProjection::ParameterProjection(const CameraParameters& parameters,
   rotation_by_pitch_ = turn * level_by_pitch / kDegreesPerRadian;
   rotation_by_roll_ = turn_by_roll * level / kDegreesPerRadian;
 
-  const double half_angle = RadiansFromDegrees(parameters[6]) / 2;
-  const double aspect = parameters[7];
+  const double half_angle = RadiansFromDegrees(parameters[kViewAngle]) / 2;
+  const double aspect = parameters[kAspect];
   focal_x_px_ = width_px / 2.0 / std::tan(half_angle);
   focal_x_by_view_angle_ =
       -width_px / 4.0 / (std::sin(half_angle) * std::sin(half_angle)) / kDegreesPerRadian;
   focal_y_by_focal_x_ = aspect * height_px / width_px;
   focal_y_px_ = focal_x_px_ * focal_y_by_focal_x_;
   focal_y_by_aspect_ = focal_x_px_ * height_px / width_px;
-  center_x_px_ = width_px / 2.0 + parameters[8] * width_px;
-  center_y_px_ = height_px / 2.0 + parameters[9] * aspect * height_px;
-  center_y_by_aspect_ = parameters[9] * height_px;
+  center_x_px_ = width_px / 2.0 + parameters[kShiftX] * width_px;
+  center_y_px_ = height_px / 2.0 + parameters[kShiftY] * aspect * height_px;
+  center_y_by_aspect_ = parameters[kShiftY] * height_px;
   center_y_by_shift_ = aspect * height_px;
 }
 
@@ -77,20 +77,18 @@ std::optional<ParameterProjection::Result> ParameterProjection::Project(
   const Eigen::Matrix<double, 2, 3> by_cam = by_normalised * normalised_by_cam;
 
   auto& jacobian = result.jacobian;
-  const Eigen::Matrix<double, 2, 3> by_position = -by_cam * rotation_;
-  jacobian.col(0) = by_position.col(0);
-  jacobian.col(1) = -by_position.col(1);  // `site` counts y southwards
-  jacobian.col(2) = by_position.col(2);
-  jacobian.col(3) = by_cam * (rotation_by_yaw_ * offset);
-  jacobian.col(4) = by_cam * (rotation_by_pitch_ * offset);
-  jacobian.col(5) = by_cam * (rotation_by_roll_ * offset);
-  jacobian.col(6) =
+  jacobian.leftCols<3>() = -by_cam * rotation_;
+  jacobian.col(kYaw) = by_cam * (rotation_by_yaw_ * offset);
+  jacobian.col(kPitch) = by_cam * (rotation_by_pitch_ * offset);
+  jacobian.col(kRoll) = by_cam * (rotation_by_roll_ * offset);
+  jacobian.col(kViewAngle) =
       Eigen::Vector2d(distorted.x(), distorted.y() * focal_y_by_focal_x_) * focal_x_by_view_angle_;
-  jacobian.col(7) = Eigen::Vector2d(0, distorted.y() * focal_y_by_aspect_ + center_y_by_aspect_);
-  jacobian.col(8) = Eigen::Vector2d(width_px_, 0);
-  jacobian.col(9) = Eigen::Vector2d(0, center_y_by_shift_);
+  jacobian.col(kAspect) =
+      Eigen::Vector2d(0, distorted.y() * focal_y_by_aspect_ + center_y_by_aspect_);
+  jacobian.col(kShiftX) = Eigen::Vector2d(width_px_, 0);
+  jacobian.col(kShiftY) = Eigen::Vector2d(0, center_y_by_shift_);
   const double r2 = normalised.squaredNorm();
-  jacobian.col(10) = Eigen::Vector2d(focal_x_px_ * x * r2, focal_y_px_ * y * r2);
+  jacobian.col(kK1) = Eigen::Vector2d(focal_x_px_ * x * r2, focal_y_px_ * y * r2);
   return result;
 }
 

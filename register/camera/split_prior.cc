@@ -9,7 +9,7 @@
 namespace groundglass {
 
 SplitPrior SplitIntoOwnAndLens(const CameraPrior& prior, const LensParameters& own_shares) {
-  constexpr int kInCamera[kNumLensParameters] = {6, 7, 10};  // kCameraParameterNames: v, a, k1
+  constexpr int kInCamera[kNumLensParameters] = {kViewAngle, kAspect, kK1};
   SplitPrior parted;
   parted.whole = prior;
   parted.own_root = prior.root;

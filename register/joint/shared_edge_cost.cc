@@ -40,8 +40,8 @@ bool SharedEdgeCost::Evaluate(double const* const* parameters,
     const double weight = std::sqrt(sample.precision);
     r[i] = weight * (sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px);
     by_camera.row(i) = weight * sample.normal.transpose() * projected->jacobian;
-    // Moving the point is moving the camera the other way; `site` counts y southwards.
-    const Eigen::RowVector3d by_point(-by_camera(i, 0), by_camera(i, 1), -by_camera(i, 2));
+    // Moving the point is moving the camera the other way.
+    const Eigen::RowVector3d by_point = -by_camera.row(i).head<3>();
     by_edge.row(i).head<2>() = by_point * frame_.across;
     by_edge.row(i).tail<2>() = sample.along * frame_.turn_ratio * by_edge.row(i).head<2>();
   }

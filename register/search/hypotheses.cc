@@ -24,11 +24,16 @@ int BinOfNormal(const Eigen::Vector2d& normal) {
   return static_cast<int>(std::lround(angle / std::numbers::pi * kNumBins)) % kNumBins;
 }
 
-// For each orientation, log(0.35 + 0.65 m / mean m): m is how much of an edge of that orientation
-// lies about a cell. The average cell scores near zero, so more edges everywhere do not help.
+// For each orientation, log(1 - s + s m / mean m), s the share of an edge that is shown: m is how
+// much of an edge of that orientation lies about a cell. The average cell scores near zero, so more
+// edges everywhere do not help.
 class ScoreMaps {
  public:
-  ScoreMaps(const EdgeEvidence::Level& level, double blur_cells) : scale_(level.scale) {
+  ScoreMaps(const EdgeEvidence::Level& level, double blur_cells, const HypothesisOptions& options)
+      : scale_(level.scale) {
+    const auto shown = static_cast<float>(options.shown_share);
+    const auto weakest = static_cast<float>(options.min_gradient);
+    const auto half = static_cast<float>(options.half_weight_gradient);
     const ImageF& gradient = level.gradient;
     width_ = gradient.width;
     height_ = gradient.height;
@@ -38,8 +43,8 @@ class ScoreMaps {
       for (int x = 1; x + 1 < width_; ++x) {
         const float* g = gradient.At(x, y);
         const float magnitude = std::hypot(g[0], g[1]);
-        if (magnitude < 1.5f) continue;
-        const float weight = magnitude / (magnitude + 6.f);
+        if (magnitude < weakest) continue;
+        const float weight = magnitude / (magnitude + half);
         double angle = std::atan2(g[1], g[0]);
         if (angle < 0) angle += std::numbers::pi;
         const double position = angle / std::numbers::pi * kNumBins;
@@ -57,7 +62,7 @@ class ScoreMaps {
       for (int y = 0; y < height_; ++y) {
         for (int x = 0; x < width_; ++x) {
           values_[(static_cast<size_t>(bin) * height_ + y) * width_ + x] =
-              std::log(0.35f + 0.65f * static_cast<float>(soft.at<float>(y, x) / mean));
+              std::log(1 - shown + shown * static_cast<float>(soft.at<float>(y, x) / mean));
         }
       }
     }
@@ -239,6 +244,9 @@ void HypothesisOptions::Check(const std::string& path) const {
   CheckAtLeast(again_below_nats_per_vote, 0, path + "again_below_nats_per_vote");
   CheckFromTo(max_rounds, 1, 20, path + "max_rounds");
   CheckFromTo(num_centres, 1, 1000, path + "num_centres");
+  CheckFromTo(shown_share, 0.01, 0.99, path + "shown_share");
+  CheckAtLeast(min_gradient, 0, path + "min_gradient");
+  CheckAbove(half_weight_gradient, 0, path + "half_weight_gradient");
 }
 
 std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
@@ -249,8 +257,8 @@ std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
   const double px_per_cell = static_cast<double>(prior.width_px) / options.width_cells;
   const EdgeEvidence::Level& level = evidence.AtScale(px_per_cell * 1.01);
   const double loose_cells = linear.loose_px / level.scale;
-  const ScoreMaps coarse(level, std::hypot(options.step_cells / 1.5, loose_cells));
-  const ScoreMaps fine(level, std::hypot(1.0, loose_cells));
+  const ScoreMaps coarse(level, std::hypot(options.step_cells / 1.5, loose_cells), options);
+  const ScoreMaps fine(level, std::hypot(1.0, loose_cells), options);
 
   std::vector<ScoredPoint> points;
   for (const CameraParameters& coefficients :

@@ -31,6 +31,12 @@ struct HypothesisOptions {
   double again_below_nats_per_vote = 0.5;
   int max_rounds = 4;
   int num_centres = 3;
+  // Share of a model edge that the photograph shows.
+  double shown_share = 0.65;
+  // Gradients weaker than this are noise, and one of the second counts half; in units of the
+  // cells' noise (EdgeEvidence::Level).
+  double min_gradient = 1.5;
+  double half_weight_gradient = 6;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "hypothesis options: ") const;

@@ -37,7 +37,8 @@ double NatsAt(double shift,
     const double x = nearest / options.noise_px;
     const double right =
         std::exp(-0.5 * x * x) / (options.noise_px * std::sqrt(2 * std::numbers::pi));
-    sum += here.sample->votes * std::log(0.35 + 0.65 * right / density);
+    sum += here.sample->votes *
+           std::log(1 - options.shown_share + options.shown_share * right / density);
   }
   return sum;
 }
@@ -77,6 +78,8 @@ void ScoreOptions::Check(const std::string& path) const {
   CheckAbove(clutter_range_px, 0, path + "clutter_range_px");
   CheckAbove(vote_length_px, 0, path + "vote_length_px");
   CheckFromTo(gate_deg, 0.1, 90, path + "gate_deg");
+  CheckFromTo(shown_share, 0.01, 0.99, path + "shown_share");
+  CheckAtLeast(max_candidates, 1, path + "max_candidates");
 }
 
 std::vector<ScoreSample> FindScoreSamples(const std::vector<EdgeSample>& samples,
@@ -84,7 +87,6 @@ std::vector<ScoreSample> FindScoreSamples(const std::vector<EdgeSample>& samples
                                           const EdgeEvidence& evidence,
                                           double spare_px,
                                           const ScoreOptions& options) {
-  constexpr int kMaxCandidates = 64;
   const std::vector<ProjectedSample> projected = ProjectSamples(samples, projection);
   std::vector<ScoreSample> found;
   found.reserve(samples.size());
@@ -102,7 +104,7 @@ std::vector<ScoreSample> FindScoreSamples(const std::vector<EdgeSample>& samples
                      evidence.FindCandidates(projected[i].image_px,
                                              projected[i].normal,
                                              range_px + spare_px,
-                                             kMaxCandidates,
+                                             options.max_candidates,
                                              options.gate_deg)});
   }
   return found;

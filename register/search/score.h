@@ -18,6 +18,9 @@ struct ScoreOptions {
   double clutter_range_px = 12;
   double vote_length_px = 20;
   double gate_deg = 25;
+  // Share of a model edge that the photograph shows; candidates that are looked at for a sample.
+  double shown_share = 0.65;
+  int max_candidates = 64;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "score options: ") const;

@@ -117,7 +117,7 @@ Judgement JudgeInnovation(const CameraParameters& whitened,
                chi_squared),
         judgement);
   }
-  const CameraParameters change = prior.root * whitened;
+  const CameraParameters change = SiteChange(prior.root * whitened);
   for (int i = 0; i < kNumCameraParameters; ++i) {
     if (!(prior.sigmas[i] > 0)) continue;
     const double sigmas = std::abs(change[i]) / prior.sigmas[i];

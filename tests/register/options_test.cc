@@ -17,7 +17,10 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTheSearch) {
                                 distinct,
                                 again,
                                 rounds,
-                                centres] = HypothesisOptions();
+                                centres,
+                                shown,
+                                weakest,
+                                half] = HypothesisOptions();
   ExpectCheckNamesEach<HypothesisOptions>({
       {"reach_sigmas", [](auto& o) { o.reach_sigmas = kNotANumber; }},
       {"width_cells", [](auto& o) { o.width_cells = 0; }},
@@ -28,6 +31,9 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTheSearch) {
       {"again_below_nats_per_vote", [](auto& o) { o.again_below_nats_per_vote = -1; }},
       {"max_rounds", [](auto& o) { o.max_rounds = 0; }},
       {"num_centres", [](auto& o) { o.num_centres = 0; }},
+      {"shown_share", [](auto& o) { o.shown_share = 0; }},
+      {"min_gradient", [](auto& o) { o.min_gradient = -1; }},
+      {"half_weight_gradient", [](auto& o) { o.half_weight_gradient = 0; }},
   });
 }
 
@@ -40,12 +46,14 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfMatchingAndScore) {
       {"outlier_share", [](auto& o) { o.outlier_share = 1; }},
       {"vote_length_px", [](auto& o) { o.vote_length_px = kNotANumber; }},
   });
-  [[maybe_unused]] const auto& [noise, crowd, length, angle] = ScoreOptions();
+  [[maybe_unused]] const auto& [noise, clutter, length, angle, shown, most] = ScoreOptions();
   ExpectCheckNamesEach<ScoreOptions>({
       {"noise_px", [](auto& o) { o.noise_px = 0; }},
       {"clutter_range_px", [](auto& o) { o.clutter_range_px = -12; }},
       {"vote_length_px", [](auto& o) { o.vote_length_px = 0; }},
       {"gate_deg", [](auto& o) { o.gate_deg = kNotANumber; }},
+      {"shown_share", [](auto& o) { o.shown_share = 1; }},
+      {"max_candidates", [](auto& o) { o.max_candidates = 0; }},
   });
   [[maybe_unused]] const auto& [offset, turn, shared] = EdgeBias();
   ExpectCheckNamesEach<EdgeBias>({
