@@ -176,7 +176,7 @@ void WriteTilesIfAsked(const BakeArguments& arguments,
   }
 }
 
-void TuneFreedMemory(const BakeArguments& arguments) {
+void ConfigureMallocTrimming(const BakeArguments& arguments) {
   const bool is_limited = arguments.options.max_memory_mb > 0;
   mallopt(M_MMAP_THRESHOLD, is_limited ? 1 << 20 : 64 << 20);
   mallopt(M_TRIM_THRESHOLD, is_limited ? 1 << 20 : 256 << 20);

@@ -43,7 +43,7 @@ void AddTileArguments(CLI::App* command, BakeArguments& arguments);
 
 // Pictures come and go. Without --memory, what they took stays with the program for what it needs
 // next, since the system would clear the pages each time; with it, it goes back to the system.
-void TuneFreedMemory(const BakeArguments& arguments);
+void ConfigureMallocTrimming(const BakeArguments& arguments);
 
 // Takes --exclude, --masks, --only and the scene's pairs.csv into account. A photograph whose mask
 // from --masks cannot be used is left out; returns a line for each of these.

@@ -3,7 +3,7 @@
 #include "cli/register_arguments.h"
 
 #include "cli/warnings_last.h"
-#include "register/control_points.h"
+#include "register/register.h"
 #include "scene/advice.h"
 #include "scene/frames.h"
 #include "scene/pose_check.h"

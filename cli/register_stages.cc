@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "cli/register_stages.h"
 
-#include "register/control_points.h"
+#include "register/register.h"
 #include "register/registration_output.h"
 #include "scene/error.h"
 #include "scene/image_io.h"

@@ -209,7 +209,7 @@ int Run(const RunArguments& arguments) {
   }
   attempts.Try("report", [&] {
     stages.Begin(kReportStage, keys.registration, {"report.html"});
-    WriteFileAtomically(out / "report.html", FormatReport(out, &scene));
+    WriteFileAtomically(out / "report.html", MakeReport(out, &scene));
     stages.Finish(kReportStage);
   });
 

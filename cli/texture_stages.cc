@@ -25,7 +25,7 @@ BakeResult BakeAndWrite(const Scene& scene,
     masks.push_back("faces/" + photograph.name + ".png");
   }
   stages.Begin(kTextureStage, key, masks);
-  TuneFreedMemory(arguments);
+  ConfigureMallocTrimming(arguments);
   BakeOptions with_masks = options;
   with_masks.on_face_mask = FaceMaskWriter(out);
   BakeResult bake =

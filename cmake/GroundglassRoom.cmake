@@ -7,13 +7,17 @@
 set(GROUNDGLASS_WARNINGS -Wall -Wextra -Wshadow -Wnon-virtual-dtor
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-subobject-linkage> -Werror)
 
+include(${CMAKE_CURRENT_LIST_DIR}/HeaderClosure.cmake)
+
 # groundglass_room(scene SOURCES a.cc b.cc NEEDS Eigen3::Eigen PRIVATE embree)
 # NEEDS: what a user of the room's headers needs; PRIVATE: what only its sources use.
 # QUICK_TO_BUILD: little time is spent in it, so the compiler optimises it less (-O1), which takes
 # a third less of its time.
+# PUBLIC: the headers that other rooms include; they are installed with those of the room that they
+# include themselves. Without it all headers are, but for
 # INTERNAL (last): headers that are not installed and may show third-party types.
 function(groundglass_room name)
-  cmake_parse_arguments(ROOM "QUICK_TO_BUILD" "" "SOURCES;NEEDS;PRIVATE;INTERNAL" ${ARGN})
+  cmake_parse_arguments(ROOM "QUICK_TO_BUILD" "" "PUBLIC;SOURCES;NEEDS;PRIVATE;INTERNAL" ${ARGN})
   string(REPLACE "-" "_" target_suffix ${name})
   set(target groundglass_${target_suffix})
   add_library(${target} STATIC ${ROOM_SOURCES})
@@ -29,11 +33,17 @@ function(groundglass_room name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${target_suffix})
   install(TARGETS ${target} EXPORT groundglassTargets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  file(GLOB headers ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
-  foreach(header IN LISTS ROOM_INTERNAL)
-    list(REMOVE_ITEM headers ${CMAKE_CURRENT_SOURCE_DIR}/${header})
+  if(ROOM_PUBLIC)
+    groundglass_header_closure(headers ${PROJECT_SOURCE_DIR} ${name} ${ROOM_PUBLIC})
+  else()
+    file(GLOB_RECURSE headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.h)
+    list(REMOVE_ITEM headers ${ROOM_INTERNAL})
+  endif()
+  foreach(header IN LISTS headers)
+    get_filename_component(folder ${header} DIRECTORY)
+    install(FILES ${header}
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/groundglass/${name}/${folder})
   endforeach()
-  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/groundglass/${name})
 endfunction()
 
 # groundglass_test(register NEEDS groundglass::register SOURCES a_test.cc)

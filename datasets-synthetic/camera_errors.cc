@@ -64,7 +64,7 @@ CameraErrors MeasureCameraErrors(const PolygonModel& model,
       std::atan2(true_forward.cross(found_forward).norm(), true_forward.dot(found_forward)));
   errors.parameters = ParametersFromTag(TagFromCamera(found_camera, 1)) -
                       ParametersFromTag(TagFromCamera(true_camera, 1));
-  for (const int angle : {3, 4, 5})
+  for (const int angle : {kYaw, kPitch, kRoll})
     errors.parameters[angle] = WrapDegrees(errors.parameters[angle]);
   return errors;
 }

@@ -41,10 +41,10 @@ Sigmas CombineSigmas(const PhotographEvaluation& photograph) {
   if (!photograph.sigmas) return sigmas;
   const CameraParameters& s = *photograph.sigmas;
   sigmas.position = s.head<3>().norm();
-  sigmas.direction_deg = std::hypot(s[3], s[4]);
-  sigmas.roll_deg = s[5];
-  sigmas.view_angle_deg = s[6];
-  sigmas.shift = std::hypot(s[8], s[9]);
+  sigmas.direction_deg = std::hypot(s[kYaw], s[kPitch]);
+  sigmas.roll_deg = s[kRoll];
+  sigmas.view_angle_deg = s[kViewAngle];
+  sigmas.shift = std::hypot(s[kShiftX], s[kShiftY]);
   return sigmas;
 }
 
@@ -117,9 +117,11 @@ std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonMod
         errors.vertex.max_px,
         WithSigma(errors.position, sigmas.position, 3).c_str(),
         WithSigma(errors.direction_deg, sigmas.direction_deg, 3).c_str(),
-        WithSigma(errors.parameters[5], sigmas.roll_deg, 3).c_str(),
-        WithSigma(errors.parameters[6], sigmas.view_angle_deg, 3).c_str(),
-        WithSigma(std::hypot(errors.parameters[8], errors.parameters[9]), sigmas.shift, 4).c_str(),
+        WithSigma(errors.parameters[kRoll], sigmas.roll_deg, 3).c_str(),
+        WithSigma(errors.parameters[kViewAngle], sigmas.view_angle_deg, 3).c_str(),
+        WithSigma(
+            std::hypot(errors.parameters[kShiftX], errors.parameters[kShiftY]), sigmas.shift, 4)
+            .c_str(),
         verdict.c_str());
   }
   if (evaluation.photographs.empty()) text.clear();
@@ -211,7 +213,7 @@ std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonMode
     entry["num_points"] = photograph.errors.vertex.num_points;
     entry["position_error"] = photograph.errors.position;
     entry["direction_error_deg"] = photograph.errors.direction_deg;
-    entry["errors"] = JsonFromParameters(photograph.errors.parameters);
+    entry["errors"] = JsonFromParameters(SiteChange(photograph.errors.parameters));
     if (photograph.sigmas) entry["sigmas"] = JsonFromParameters(*photograph.sigmas);
     if (photograph.calibration) {
       entry["mahalanobis_squared"] = photograph.calibration->mahalanobis_squared;

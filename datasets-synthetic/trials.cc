@@ -4,7 +4,7 @@
 
 #include "datasets-synthetic/camera_errors.h"
 #include "datasets-synthetic/noise.h"
-#include "register/register_scene.h"
+#include "register/register.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
 

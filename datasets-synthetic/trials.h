@@ -4,7 +4,7 @@
 
 #include "datasets-synthetic/notebook.h"
 #include "datasets-synthetic/truth.h"
-#include "register/register_photograph.h"
+#include "register/register.h"
 #include "scene/progress.h"
 #include "scene/scene_folder.h"
 

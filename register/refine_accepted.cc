@@ -2,8 +2,7 @@
 // Part of Groundglass.
 #include "register/refine_accepted.h"
 
-#include "register/verdict.h"
-#include "register/write_solution.h"
+#include "register/fill_registration.h"
 #include "scene/error.h"
 
 #include <map>
@@ -61,7 +60,8 @@ std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
     joint_options.own_view_angle_share = joint_options.own_k1_share;
     joint_options.own_aspect_share = joint_options.own_k1_share;
   }
-  const JointRefinement joint = RefineTogether(edge_model, photographs, lenses, joint_options);
+  const JointRefinement joint =
+      options.refine_together(edge_model, photographs, lenses, joint_options);
   for (const JointSolution& solution : joint.photographs) {
     if (!solution.whitened.allFinite() || !solution.covariance.allFinite()) {
       throw Error("register: the photographs' common solution has no covariance");
@@ -75,9 +75,14 @@ std::vector<EdgeDisplacement> RefineAccepted(const EdgeModel& edge_model,
       points_in_world.push_back(found.sample.point_in_world);
     }
     const JointSolution& solution = joint.photographs[i];
-    WriteSolution(solution, photograph.prior, edge_model.model, points_in_world, registration);
-    JudgeEvidence(EvidenceFor(solution.whitened, photograph, options.score), options, registration);
-    JudgeChange(solution.whitened, photograph.prior, options, registration);
+    FillRegistration(solution, photograph.prior, edge_model.model, points_in_world, registration);
+    const Evidence evidence = EvidenceFor(solution.whitened, photograph, options.solutions.score);
+    RecordEvidence(evidence, registration);
+    ApplyJudgement(JudgeFit(evidence, options.verdict), registration);
+    ApplyJudgement(JudgeInnovation(solution.whitened, photograph.prior, options.verdict),
+                   registration);
+    registration.undetermined =
+        FindUndetermined(registration.sigmas, photograph.prior, options.verdict);
   }
   return joint.displacements;
 }

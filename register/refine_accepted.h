@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "register/register_photograph.h"
+#include "register/align_photograph.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "register/register_scene.h"
+#include "register/register.h"
 #include "scene/scene_folder.h"
 
 #include <filesystem>

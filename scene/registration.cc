@@ -10,14 +10,11 @@
 namespace groundglass {
 namespace {
 
-// Indices into CameraParameters.
-enum { kX, kY, kZ, kYaw, kPitch, kRoll, kViewAngle, kAspect, kShiftX, kShiftY, kK1 };
-
-// The unit view axis in `site`: yaw from +y towards +x, as the thesis has it.
-Eigen::Vector3d AxisInSite(double yaw_deg, double pitch_deg) {
+// The unit view axis.
+Eigen::Vector3d AxisInWorld(double yaw_deg, double pitch_deg) {
   const double yaw = RadiansFromDegrees(yaw_deg);
   const double pitch = RadiansFromDegrees(pitch_deg);
-  return {std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch), std::sin(pitch)};
+  return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
 }
 
 double LookatDistance(const ViewTag& tag) {
@@ -27,12 +24,10 @@ double LookatDistance(const ViewTag& tag) {
 }  // namespace
 
 CameraParameters ParametersFromTag(const ViewTag& tag) {
-  const Eigen::Vector3d axis = tag.lookat_in_site - tag.position_in_site;
+  const Eigen::Vector3d axis = WorldFromSite(tag.lookat_in_site - tag.position_in_site);
   CameraParameters parameters;
-  parameters[kX] = tag.position_in_site.x();
-  parameters[kY] = tag.position_in_site.y();
-  parameters[kZ] = tag.position_in_site.z();
-  parameters[kYaw] = DegreesFromRadians(std::atan2(axis.x(), axis.y()));
+  parameters.head<3>() = WorldFromSite(tag.position_in_site);
+  parameters[kYaw] = DegreesFromRadians(std::atan2(axis.y(), axis.x()));
   // The same angle as asin(dz / distance), without its loss of digits in steep views.
   parameters[kPitch] = DegreesFromRadians(std::atan2(axis.z(), axis.head<2>().norm()));
   parameters[kRoll] = tag.roll_deg;
@@ -44,11 +39,32 @@ CameraParameters ParametersFromTag(const ViewTag& tag) {
   return parameters;
 }
 
+CameraParameters SiteParameters(const CameraParameters& in_world) {
+  CameraParameters in_site = SiteChange(in_world);
+  in_site[kYaw] = std::remainder(in_site[kYaw] + 90, 360.0);
+  return in_site;
+}
+
+CameraParameters SiteChange(const CameraParameters& change_in_world) {
+  CameraParameters change_in_site = change_in_world;
+  change_in_site[kPositionY] *= -1;
+  return change_in_site;
+}
+
+CameraCovariance SiteCovariance(const CameraCovariance& in_world) {
+  CameraCovariance in_site = in_world;
+  in_site.row(kPositionY) *= -1;
+  in_site.col(kPositionY) *= -1;
+  return in_site;
+}
+
 ViewTag TagFromParameters(const CameraParameters& parameters, const ViewTag& measured) {
   ViewTag tag = measured;
-  tag.position_in_site = parameters.head<3>();
-  tag.lookat_in_site = tag.position_in_site +
-                       LookatDistance(measured) * AxisInSite(parameters[kYaw], parameters[kPitch]);
+  const Eigen::Vector3d position_in_world = parameters.head<3>();
+  tag.position_in_site = SiteFromWorld(position_in_world);
+  tag.lookat_in_site =
+      SiteFromWorld(position_in_world +
+                    LookatDistance(measured) * AxisInWorld(parameters[kYaw], parameters[kPitch]));
   tag.roll_deg = parameters[kRoll];
   tag.view_angle_deg = parameters[kViewAngle];
   tag.aspect = parameters[kAspect];
@@ -70,11 +86,12 @@ TagDeviations TagDeviationsFromCovariance(const CameraParameters& parameters,
   lookat_jacobian.leftCols<3>().setIdentity();
   lookat_jacobian.col(kYaw) =
       distance / kDegreesPerRadian *
-      Eigen::Vector3d(std::cos(yaw) * std::cos(pitch), -std::sin(yaw) * std::cos(pitch), 0);
+      Eigen::Vector3d(-std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch), 0);
   lookat_jacobian.col(kPitch) =
       distance / kDegreesPerRadian *
       Eigen::Vector3d(
-          -std::sin(yaw) * std::sin(pitch), -std::cos(yaw) * std::sin(pitch), std::cos(pitch));
+          -std::cos(yaw) * std::sin(pitch), -std::sin(yaw) * std::sin(pitch), std::cos(pitch));
+  // Variances, the same in `site` and in `world`.
   const Eigen::Vector3d lookat_variance =
       (lookat_jacobian * covariance * lookat_jacobian.transpose()).diagonal();
 
@@ -82,9 +99,9 @@ TagDeviations TagDeviationsFromCovariance(const CameraParameters& parameters,
   const auto set = [&](TagKey key, double variance) {
     deviations[static_cast<int>(key)] = std::sqrt(std::max(0.0, variance));
   };
-  set(TagKey::kX, covariance(kX, kX));
-  set(TagKey::kY, covariance(kY, kY));
-  set(TagKey::kZ, covariance(kZ, kZ));
+  set(TagKey::kX, covariance(kPositionX, kPositionX));
+  set(TagKey::kY, covariance(kPositionY, kPositionY));
+  set(TagKey::kZ, covariance(kPositionZ, kPositionZ));
   set(TagKey::kI, lookat_variance.x());
   set(TagKey::kJ, lookat_variance.y());
   set(TagKey::kK, lookat_variance.z());

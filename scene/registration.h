@@ -15,16 +15,36 @@
 
 namespace groundglass {
 
-// The free numbers of one photograph, in this order, in the tag's own units: position in `site`
-// (model's unit), yaw, pitch and roll (degrees), view angle (degrees), aspect, shift (fraction of
-// the frame's width) and k1.
+// The free numbers of one photograph, in this order: position in `world` (model's unit), yaw,
+// pitch and roll (degrees), view angle (degrees), aspect, shift (fraction of the frame's width) and
+// k1. Yaw is that of the view axis about `world` Z, from X (east) towards Y (north).
+enum CameraParameter {
+  kPositionX,
+  kPositionY,
+  kPositionZ,
+  kYaw,
+  kPitch,
+  kRoll,
+  kViewAngle,
+  kAspect,
+  kShiftX,
+  kShiftY,
+  kK1
+};
 constexpr int kNumCameraParameters = 11;
+// What people read and write.
 constexpr std::array<std::string_view, kNumCameraParameters> kCameraParameterNames = {
     "x", "y", "z", "yaw", "pitch", "roll", "v", "a", "shift_x", "shift_y", "k1"};
 using CameraParameters = Eigen::Matrix<double, kNumCameraParameters, 1>;
 using CameraCovariance = Eigen::Matrix<double, kNumCameraParameters, kNumCameraParameters>;
 
 CameraParameters ParametersFromTag(const ViewTag& tag);
+// What is printed: the same numbers in `site`, y southwards and yaw from south (y) towards east
+// (x), as the thesis has it; a change of them; and their covariance. The last two are their own
+// inverse.
+CameraParameters SiteParameters(const CameraParameters& in_world);
+CameraParameters SiteChange(const CameraParameters& change_in_world);
+CameraCovariance SiteCovariance(const CameraCovariance& in_world);
 // The tag with these numbers; its look-at point moves along the new axis, staying at the measured
 // distance. k2, k3, p1, p2, sigmas and name are kept from `measured`.
 ViewTag TagFromParameters(const CameraParameters& parameters, const ViewTag& measured);

@@ -24,7 +24,8 @@ Json JsonFromTag(const ViewTag& tag) {
     json[std::string(kTagKeyNames[index])] = GetTagValue(tag, static_cast<TagKey>(index));
   }
   for (const SigmaKey& key : kSigmaKeys) {
-    if (const std::optional<double>& sigma = tag.sigmas.*(key.member)) json[std::string(key.name)] = *sigma;
+    if (const std::optional<double>& sigma = tag.sigmas.*(key.member))
+      json[std::string(key.name)] = *sigma;
   }
   if (!tag.camera.empty()) json["camera"] = tag.camera;
   return json;
@@ -93,11 +94,12 @@ Json JsonFromRegistration(const Registration& registration) {
   json["sigmas"] = JsonFromParameters(registration.sigmas);
   json["prior_sigmas"] = JsonFromParameters(registration.prior_sigmas);
   json["parameters"] = kCameraParameterNames;
+  const CameraCovariance covariance_in_site = SiteCovariance(registration.covariance);
   json["covariance"] = Json::array();
   for (int row = 0; row < kNumCameraParameters; ++row) {
     Json values = Json::array();
     for (int column = 0; column < kNumCameraParameters; ++column) {
-      values.push_back(registration.covariance(row, column));
+      values.push_back(covariance_in_site(row, column));
     }
     json["covariance"].push_back(std::move(values));
   }
@@ -139,6 +141,7 @@ Registration RegistrationFromJson(const Json& json) {
       registration.covariance(row, column) = covariance.at(row).at(column).get<double>();
     }
   }
+  registration.covariance = SiteCovariance(registration.covariance);
   registration.undetermined = json.at("undetermined").get<std::vector<std::string>>();
   registration.num_samples = json.at("num_samples").get<int>();
   if (json.contains("robust_sigma_px")) {

@@ -294,8 +294,8 @@ class Report {
 
   void AddParameters(const Registration& registration) {
     if (!HasCorrection(registration.verdict)) return;
-    const CameraParameters measured = ParametersFromTag(registration.measured);
-    const CameraParameters corrected = ParametersFromTag(registration.corrected);
+    const CameraParameters measured = SiteParameters(ParametersFromTag(registration.measured));
+    const CameraParameters corrected = SiteParameters(ParametersFromTag(registration.corrected));
     body_ +=
         "<table><thead><tr><th>Number</th><th class=\"n\">Measured</th><th class=\"n\">Corrected"
         "</th><th class=\"n\">Uncertainty, \u00b1</th><th class=\"n\">Moved</th><th class=\"n\">"
@@ -303,7 +303,7 @@ class Report {
     for (int i = 0; i < kNumCameraParameters; ++i) {
       const double sigma = registration.sigmas[i];
       double moved = corrected[i] - measured[i];
-      if (kParameterWords[i].name == std::string("direction (yaw)")) {
+      if (i == kYaw) {
         moved = std::remainder(moved, 360.0);
       }
       // A number that nothing was done to says nothing.
@@ -358,9 +358,9 @@ void ReportOptions::Check() const {
   CheckFromTo(picture_width_px, 16, 10000, "report options: picture_width_px");
 }
 
-std::string FormatReport(const fs::path& out_folder,
-                         const Scene* scene,
-                         const ReportOptions& options) {
+std::string MakeReport(const fs::path& out_folder,
+                       const Scene* scene,
+                       const ReportOptions& options) {
   options.Check();
   return Report(out_folder, scene, options).Format();
 }

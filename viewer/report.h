@@ -24,7 +24,7 @@ struct ReportOptions {
 // in natural order; films: .mp4, linked). With the scene, each photograph is shown with the
 // measured and with the corrected edges side by side; without it, as overlays/ has it. Error if the
 // folder holds neither registration.json nor coverage.json.
-std::string FormatReport(const std::filesystem::path& out_folder,
+std::string MakeReport(const std::filesystem::path& out_folder,
                          const Scene* scene = nullptr,
                          const ReportOptions& options = {});
 

@@ -3,7 +3,7 @@
 #include "datasets-synthetic/camera_errors.h"
 #include "datasets-synthetic/trials.h"
 #include "datasets-synthetic/truth.h"
-#include "register/register_scene.h"
+#include "register/register.h"
 #include "scene/scene_folder.h"
 
 #include <algorithm>
@@ -32,24 +32,25 @@ std::vector<Variant> MakeVariants() {
   };
   add("everything");
   RegisterOptions& no_gate = add("no orientation gate");
-  no_gate.refine.matching.gate_deg = no_gate.score.gate_deg = 90;
+  no_gate.solutions.refine.matching.gate_deg = no_gate.solutions.score.gate_deg = 90;
   no_gate.joint.matching.gate_deg = 90;
-  add("no hypotheses").hypotheses.max_starts = 0;
+  add("no hypotheses").solutions.hypotheses.max_starts = 0;
   RegisterOptions& wide = add("no hypotheses, full range");
-  wide.hypotheses.max_starts = 0;
-  wide.refine.start_sigmas = 1;
-  add("no annealing").refine.start_sigmas = 1e-6;
+  wide.solutions.hypotheses.max_starts = 0;
+  wide.solutions.refine.start_sigmas = 1;
+  add("no annealing").solutions.refine.start_sigmas = 1e-6;
   RegisterOptions& exact_model = add("no edge offsets");
-  exact_model.refine.bias.edge_offset_sigmas = exact_model.refine.bias.edge_turn_sigmas = 3e-5;
+  exact_model.solutions.refine.bias.edge_offset_sigmas =
+      exact_model.solutions.refine.bias.edge_turn_sigmas = 3e-5;
   exact_model.joint.common_offset_sigmas = exact_model.joint.common_turn_sigmas = 3e-3;
   exact_model.joint.own.edge_offset_sigmas = exact_model.joint.own.edge_turn_sigmas = 3e-5;
   exact_model.joint.least_own_offset_sigmas = exact_model.joint.most_own_offset_sigmas = 3e-5;
   RegisterOptions& strongest = add("strongest candidate alone");
-  strongest.refine.matching.max_candidates = strongest.joint.matching.max_candidates = 1;
+  strongest.solutions.refine.matching.max_candidates = strongest.joint.matching.max_candidates = 1;
   add("each photograph by itself").independent = true;
   RegisterOptions& anchored = add("edges held where the model has them");
   anchored.joint.common_offset_sigmas = anchored.joint.common_turn_sigmas = 3e-3;
-  anchored.joint.own = anchored.refine.bias;
+  anchored.joint.own = anchored.solutions.refine.bias;
   add("no ground level of its own").joint.ground_level_sigmas = 3e-3;
   add("own errors of edges without tails").joint.own_degrees_of_freedom = 1e6;
   return variants;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "register/refine_accepted.h"
-#include "register/register_photograph.h"
+#include "register/register.h"
 #include "scene/image_io.h"
 #include "scene/osu_io.h"
 #include "scene/scene_folder.h"
@@ -105,7 +105,8 @@ void BM_RefineFromTag(benchmark::State& state) {
   const EdgeEvidence evidence(slide.grey8, {});
   const CameraPrior prior = PriorOf(slide);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(RefineFrom(CameraParameters::Zero(), edge_model, evidence, prior, {}));
+    benchmark::DoNotOptimize(
+        RefinePhotograph(CameraParameters::Zero(), edge_model, evidence, prior, {}));
   }
 }
 BENCHMARK(BM_RefineFromTag)->Apply(AtAllWidths);
@@ -130,7 +131,7 @@ void BM_RegisterPhotograph(benchmark::State& state) {
   const EdgeModel edge_model(slide.model);
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        RegisterPhotograph("s3", slide.grey8, {}, slide.tag, {}, edge_model, {}));
+        RegisterPhotograph({"s3", slide.grey8, {}, slide.tag, {}}, edge_model, {}));
   }
 }
 BENCHMARK(BM_RegisterPhotograph)->Apply(AtAllWidths)->Arg(6000);
@@ -142,8 +143,10 @@ void BM_RefineAccepted(benchmark::State& state) {
   const EdgeModel edge_model(scene.model);
   std::vector<PhotographAlignment> aligned;
   for (const Photograph& photograph : scene.photographs) {
-    aligned.push_back(AlignPhotograph(
-        photograph.name, ReadGrey8(photograph.image_file), {}, photograph.tag, {}, edge_model, {}));
+    aligned.push_back(
+        AlignPhotograph({photograph.name, ReadGrey8(photograph.image_file), {}, photograph.tag, {}},
+                        edge_model,
+                        {}));
   }
   for (auto _ : state) {
     std::vector<PhotographAlignment> together = aligned;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "register/refine_accepted.h"
-#include "register/register_photograph.h"
+#include "register/register.h"
 #include "scene/model_sigma.h"
 #include "tests/register/house.h"
 
@@ -69,7 +69,7 @@ std::vector<PhotographAlignment> RegisterScaled(double scale,
     tag.position_in_site *= scale;
     tag.lookat_in_site *= scale;
     alignments.push_back(
-        AlignPhotograph("s" + std::to_string(i), Photographs()[i], {}, tag, {}, edge_model, {}));
+        AlignPhotograph({"s" + std::to_string(i), Photographs()[i], {}, tag, {}}, edge_model, {}));
   }
   RefineAccepted(edge_model, {}, alignments);
   for (PhotographAlignment& alignment : alignments) FinishVerdict({}, alignment);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "register/register_photograph.h"
+#include "register/register.h"
 #include "tests/support/spoilt_options.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,10 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTheSearch) {
                                 distinct,
                                 again,
                                 rounds,
-                                centres] = HypothesisOptions();
+                                centres,
+                                shown,
+                                weakest,
+                                half] = HypothesisOptions();
   ExpectCheckNamesEach<HypothesisOptions>({
       {"reach_sigmas", [](auto& o) { o.reach_sigmas = kNotANumber; }},
       {"width_cells", [](auto& o) { o.width_cells = 0; }},
@@ -28,6 +31,9 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTheSearch) {
       {"again_below_nats_per_vote", [](auto& o) { o.again_below_nats_per_vote = -1; }},
       {"max_rounds", [](auto& o) { o.max_rounds = 0; }},
       {"num_centres", [](auto& o) { o.num_centres = 0; }},
+      {"shown_share", [](auto& o) { o.shown_share = 0; }},
+      {"min_gradient", [](auto& o) { o.min_gradient = -1; }},
+      {"half_weight_gradient", [](auto& o) { o.half_weight_gradient = 0; }},
   });
 }
 
@@ -40,12 +46,14 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfMatchingAndScore) {
       {"outlier_share", [](auto& o) { o.outlier_share = 1; }},
       {"vote_length_px", [](auto& o) { o.vote_length_px = kNotANumber; }},
   });
-  [[maybe_unused]] const auto& [noise, crowd, length, angle] = ScoreOptions();
+  [[maybe_unused]] const auto& [noise, clutter, length, angle, shown, most] = ScoreOptions();
   ExpectCheckNamesEach<ScoreOptions>({
       {"noise_px", [](auto& o) { o.noise_px = 0; }},
-      {"crowd_range_px", [](auto& o) { o.crowd_range_px = -12; }},
+      {"clutter_range_px", [](auto& o) { o.clutter_range_px = -12; }},
       {"vote_length_px", [](auto& o) { o.vote_length_px = 0; }},
       {"gate_deg", [](auto& o) { o.gate_deg = kNotANumber; }},
+      {"shown_share", [](auto& o) { o.shown_share = 1; }},
+      {"max_candidates", [](auto& o) { o.max_candidates = 0; }},
   });
   [[maybe_unused]] const auto& [offset, turn, shared] = EdgeBias();
   ExpectCheckNamesEach<EdgeBias>({
@@ -80,6 +88,7 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfRefinement) {
                                 aspect,
                                 rounds,
                                 range,
+                                spare,
                                 narrowing,
                                 least_noise,
                                 joint_matching] = JointOptions();
@@ -99,6 +108,7 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfRefinement) {
       {"own_aspect_share", [](auto& o) { o.own_aspect_share = kNotANumber; }},
       {"num_rounds", [](auto& o) { o.num_rounds = 0; }},
       {"start_range_px", [](auto& o) { o.start_range_px = 1; }},  // below the final range
+      {"spare_range", [](auto& o) { o.spare_range = 0.5; }},
       {"shrink", [](auto& o) { o.shrink = 0; }},
       {"min_noise_px", [](auto& o) { o.min_noise_px = 0; }},
       {"matching.outlier_share", [](auto& o) { o.matching.outlier_share = 0; }},
@@ -149,38 +159,31 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfThePrior) {
 
 TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
   [[maybe_unused]] const auto& [prior,
-                                hypotheses,
-                                refine,
-                                score,
+                                solutions,
                                 joint,
                                 model_errors,
+                                verdict,
+                                overrule,
                                 independent,
                                 width,
-                                distance,
-                                margin_per_vote,
-                                margin,
-                                nats,
-                                sigmas,
-                                chi_squared,
-                                vertex,
                                 points,
-                                point_sigmas,
-                                overrule] = RegisterOptions();
+                                together] = RegisterOptions();
   ExpectCheckNamesEach<RegisterOptions>({
       {"sigma-roll", [](auto& o) { o.prior.roll_deg = 0; }},
-      {"hypotheses.width_cells", [](auto& o) { o.hypotheses.width_cells = 0; }},
-      {"refine.matching.gate_deg", [](auto& o) { o.refine.matching.gate_deg = 0; }},
-      {"score.noise_px", [](auto& o) { o.score.noise_px = 0; }},
+      {"solutions.hypotheses.width_cells", [](auto& o) { o.solutions.hypotheses.width_cells = 0; }},
+      {"solutions.refine.matching.gate_deg",
+       [](auto& o) { o.solutions.refine.matching.gate_deg = 0; }},
+      {"solutions.score.noise_px", [](auto& o) { o.solutions.score.noise_px = 0; }},
       {"joint.own.edge_turn_sigmas", [](auto& o) { o.joint.own.edge_turn_sigmas = 0; }},
       {"model_errors.min_sigmas", [](auto& o) { o.model_errors.min_sigmas = -1; }},
       {"max_width_px", [](auto& o) { o.max_width_px = 63; }},
-      {"rival_distance_px", [](auto& o) { o.rival_distance_px = kNotANumber; }},
-      {"min_margin_per_vote", [](auto& o) { o.min_margin_per_vote = -1; }},
-      {"min_margin_nats", [](auto& o) { o.min_margin_nats = kInfinity; }},
-      {"min_nats_per_vote", [](auto& o) { o.min_nats_per_vote = kNotANumber; }},
-      {"max_prior_sigmas", [](auto& o) { o.max_prior_sigmas = 0; }},
-      {"max_prior_chi_squared", [](auto& o) { o.max_prior_chi_squared = 0; }},
-      {"max_vertex_sigma_px", [](auto& o) { o.max_vertex_sigma_px = 0; }},
+      {"solutions.rival_distance_px", [](auto& o) { o.solutions.rival_distance_px = kNotANumber; }},
+      {"verdict.min_margin_per_vote", [](auto& o) { o.verdict.min_margin_per_vote = -1; }},
+      {"verdict.min_margin_nats", [](auto& o) { o.verdict.min_margin_nats = kInfinity; }},
+      {"verdict.min_nats_per_vote", [](auto& o) { o.verdict.min_nats_per_vote = kNotANumber; }},
+      {"verdict.max_prior_sigmas", [](auto& o) { o.verdict.max_prior_sigmas = 0; }},
+      {"verdict.max_prior_chi_squared", [](auto& o) { o.verdict.max_prior_chi_squared = 0; }},
+      {"verdict.max_vertex_sigma_px", [](auto& o) { o.verdict.max_vertex_sigma_px = 0; }},
       {"s5: image_px",
        [](auto& o) {
          o.control_points = {{"s5", {kNotANumber, 1}, {1, 2, 3}}};
@@ -193,16 +196,17 @@ TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
        [](auto& o) {
          o.control_points = {{"s5", {1, 1}, {1, 2, 3}, 0}};
        }},
-      {"max_control_point_sigmas", [](auto& o) { o.max_control_point_sigmas = 0; }},
+      {"verdict.max_control_point_sigmas", [](auto& o) { o.verdict.max_control_point_sigmas = 0; }},
       {"accept and reject",
        [](auto& o) {
          o.overrule = {{"s5"}, {"s5"}};
        }},
   });
   RegisterOptions options;
-  options.hypotheses.width_cells = 0;
-  EXPECT_EQ(ThrownMessage([&] { options.Check(); }),
-            "registration options: hypotheses.width_cells must be from 16 to 10000, not 0");
+  options.solutions.hypotheses.width_cells = 0;
+  EXPECT_EQ(
+      ThrownMessage([&] { options.Check(); }),
+      "registration options: solutions.hypotheses.width_cells must be from 16 to 10000, not 0");
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "register/register_photograph.h"
-
+#include "register/register.h"
 #include "scene/frames.h"
 #include "tests/register/house.h"
 
@@ -57,7 +56,7 @@ Errors DrawErrors(int spot, uint64_t seed) {
 Registration Register(const PolygonModel& model,
                       const Image8& photograph,
                       const ViewTag& measured) {
-  return RegisterPhotograph("test", photograph, {}, measured, {}, EdgeModel(model), {});
+  return RegisterPhotograph({"test", photograph, {}, measured, {}}, EdgeModel(model), {});
 }
 
 TEST(RegisterPhotograph, RecoversTheCameraAndTheSlideFromTapeErrors) {
@@ -91,13 +90,13 @@ TEST(RegisterPhotograph, ASearchThatItsPriorBendsBeginsAnew) {
   const Camera truth = CameraFromTag(errors.truth, kWidth, kHeight);
   const Image8 photograph = PhotographModel(model, truth, 2, 3);
   const auto error_px = [&](const RegisterOptions& options) {
-    const Registration found =
-        RegisterPhotograph("test", photograph, {}, errors.measured, {}, EdgeModel(model), options);
+    const Registration found = RegisterPhotograph(
+        {"test", photograph, {}, errors.measured, {}}, EdgeModel(model), options);
     return VertexErrorPx(model, truth, found.CorrectedCamera());
   };
   EXPECT_LT(error_px({}), 1);
   RegisterOptions once;
-  once.hypotheses.max_rounds = 1;
+  once.solutions.hypotheses.max_rounds = 1;
   EXPECT_GT(error_px(once), 3);
 }
 
@@ -130,8 +129,10 @@ TEST(RegisterPhotograph, ASlideOutOfRegisterIsFoundWhenTheCameraIsKnown) {
   const Camera truth = CameraFromTag(truth_tag, kWidth, kHeight);
   RegisterOptions options;
   options.prior.lock = {"x", "y", "z", "yaw", "pitch", "v", "a", "k1"};
-  const Registration registration = RegisterPhotograph(
-      "slide", PhotographModel(model, truth, 2, 1), {}, TrueTag(0), {}, EdgeModel(model), options);
+  const Registration registration =
+      RegisterPhotograph({"slide", PhotographModel(model, truth, 2, 1), {}, TrueTag(0), {}},
+                         EdgeModel(model),
+                         options);
   EXPECT_EQ(registration.verdict, Verdict::kAccepted);
   EXPECT_NEAR(registration.corrected.roll_deg, -1.2, 0.03);
   EXPECT_NEAR(registration.corrected.shift_x, 0.021, 0.0003);
@@ -174,13 +175,10 @@ TEST(RegisterPhotograph, AReducedPhotographGivesTheSameCamera) {
   const Camera truth = CameraFromTag(errors.truth, kWidth, kHeight);
   RegisterOptions options;
   options.max_width_px = kWidth / 2;
-  const Registration registration = RegisterPhotograph("large",
-                                                       PhotographModel(model, truth, 2, 1),
-                                                       {},
-                                                       errors.measured,
-                                                       {},
-                                                       EdgeModel(model),
-                                                       options);
+  const Registration registration =
+      RegisterPhotograph({"large", PhotographModel(model, truth, 2, 1), {}, errors.measured, {}},
+                         EdgeModel(model),
+                         options);
   EXPECT_EQ(registration.verdict, Verdict::kAccepted);
   EXPECT_LT(VertexErrorPx(model, truth, registration.CorrectedCamera()), 0.6);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "register/register_scene.h"
-
+#include "register/register.h"
 #include "register/registration_output.h"
 #include "scene/colmap_io.h"
 #include "scene/registration_io.h"

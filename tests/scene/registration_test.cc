@@ -23,10 +23,31 @@ ViewTag S5() {
 }
 
 TEST(ParametersFromTag, GivesTheThesisAngles) {
-  const CameraParameters parameters = ParametersFromTag(S5());
+  const CameraParameters parameters = SiteParameters(ParametersFromTag(S5()));
   const double distance = std::sqrt(128.0 * 128 + 102.0 * 102 + 28.6 * 28.6);
-  EXPECT_NEAR(parameters[3], std::atan2(-128, 102) * kDegreesPerRadian, 1e-12);
-  EXPECT_NEAR(parameters[4], std::asin(28.6 / distance) * kDegreesPerRadian, 1e-12);
+  EXPECT_NEAR(parameters[kPositionY], -104, 1e-12);
+  EXPECT_NEAR(parameters[kYaw], std::atan2(-128, 102) * kDegreesPerRadian, 1e-12);
+  EXPECT_NEAR(parameters[kPitch], std::asin(28.6 / distance) * kDegreesPerRadian, 1e-12);
+}
+
+TEST(ParametersFromTag, AreInWorldWhereYawTurnsFromEastToNorth) {
+  ViewTag tag;
+  tag.position_in_site = {10, 20, 3};
+  tag.lookat_in_site = {10, 10, 3};  // due north
+  const CameraParameters north = ParametersFromTag(tag);
+  EXPECT_EQ(north[kPositionY], -20);
+  EXPECT_NEAR(north[kYaw], 90, 1e-12);
+  tag.lookat_in_site = {20, 20, 3};  // due east
+  EXPECT_NEAR(ParametersFromTag(tag)[kYaw], 0, 1e-12);
+}
+
+TEST(SiteCovariance, IsThatOfSiteParameters) {
+  // Numbers a and b of each parameter, in `world` and in `site`: covariances go as their products.
+  CameraParameters a = CameraParameters::LinSpaced(-3, 5);
+  const CameraCovariance in_world = a * a.transpose();
+  const CameraParameters a_in_site = SiteChange(a);
+  EXPECT_EQ(SiteCovariance(in_world), a_in_site * a_in_site.transpose());
+  EXPECT_EQ(SiteCovariance(SiteCovariance(in_world)), in_world);
 }
 
 TEST(TagFromParameters, IsTheInverse) {

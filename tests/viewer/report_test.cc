@@ -94,7 +94,7 @@ class ReportOf : public testing::Test {
 
 TEST_F(ReportOf, AnEmptyFolderIsAnError) {
   try {
-    FormatReport(folder_);
+    MakeReport(folder_);
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("neither registration.json nor coverage.json"));
@@ -103,7 +103,7 @@ TEST_F(ReportOf, AnEmptyFolderIsAnError) {
 
 TEST_F(ReportOf, TellsVerdictsReasonsAndWhatMoved) {
   WriteRegistrations();
-  const std::string html = FormatReport(folder_);
+  const std::string html = MakeReport(folder_);
   EXPECT_THAT(html, HasSubstr("<h1>hall</h1>"));
   EXPECT_THAT(html, HasSubstr("<span class=\"verdict rejected\">rejected</span>"));
   EXPECT_THAT(html, HasSubstr("no fit &lt;better&gt; than chance &amp; none near"));
@@ -116,12 +116,12 @@ TEST_F(ReportOf, TellsVerdictsReasonsAndWhatMoved) {
 
 TEST_F(ReportOf, ListsWhereTheModelIsOffInSite) {
   WriteRegistrations();
-  EXPECT_THAT(FormatReport(folder_), Not(HasSubstr("Where the model is off")));
+  EXPECT_THAT(MakeReport(folder_), Not(HasSubstr("Where the model is off")));
   const ModelError cornice = {"east wall / roof", {}, {1, 0, 0}, {0, 0.25, -0.3}, 0.05, 4};
   WriteFileAtomically(
       folder_ / "registration.json",
       FormatRegistrations(ReadRegistrations(folder_ / "registration.json"), {cornice}));
-  const std::string html = FormatReport(folder_);
+  const std::string html = MakeReport(folder_);
   EXPECT_THAT(html, HasSubstr("Where the model is off"));
   EXPECT_THAT(html, HasSubstr("<td>east wall / roof</td>"));
   EXPECT_THAT(html, HasSubstr("<td class=\"n\">\u22120.250</td>"));  // south is positive
@@ -129,7 +129,7 @@ TEST_F(ReportOf, ListsWhereTheModelIsOffInSite) {
 
 TEST_F(ReportOf, PointsOutFacesThatNobodySees) {
   WriteCoverage();
-  const std::string html = FormatReport(folder_);
+  const std::string html = MakeReport(folder_);
   EXPECT_THAT(html, HasSubstr("62 %"));
   EXPECT_THAT(html, HasSubstr("2 faces are seen by less than half"));
   EXPECT_THAT(html, HasSubstr("<td>12, \u22124, 5</td>"));  // where to stand
@@ -142,7 +142,7 @@ TEST_F(ReportOf, HoldsItsPicturesAndAsksForNothingElse) {
   WriteRegistrations();
   WriteSrgb8(folder_ / "overlays" / "s1.jpg", MakePlainPage(300, 200, 120, 90, 60));
   WriteSrgb8(folder_ / "renders" / "from_the_east.png", MakePlainPage(60, 40, 9, 9, 9));
-  const std::string html = FormatReport(folder_);
+  const std::string html = MakeReport(folder_);
   EXPECT_THAT(html, HasSubstr("alt=\"new view from_the_east\" src=\"data:image/jpeg;base64,/9j/"));
   EXPECT_THAT(html, HasSubstr("alt=\"s1 with the model's edges\""));
   for (const char* elsewhere : {"http:", "https:", "<script", "<link", "url(", "@import"}) {
@@ -160,7 +160,7 @@ TEST_F(ReportOf, ShowsBeforeAndAfterWhenItHasTheScene) {
   photograph.image_file = folder_.parent_path() / "s1.png";
   WriteSrgb8(photograph.image_file, MakePlainPage(300, 200, 120, 90, 60));
   scene.photographs = {photograph};
-  const std::string html = FormatReport(folder_, &scene);
+  const std::string html = MakeReport(folder_, &scene);
   EXPECT_THAT(html, HasSubstr("<h1>parish hall</h1>"));
   EXPECT_THAT(html, HasSubstr("<figcaption>as measured</figcaption>"));
   EXPECT_THAT(html, HasSubstr("<figcaption>corrected</figcaption>"));
@@ -170,7 +170,7 @@ TEST_F(ReportOf, ShowsBeforeAndAfterWhenItHasTheScene) {
 TEST_F(ReportOf, DamagedCoverageIsNamed) {
   WriteFileAtomically(folder_ / "coverage.json", std::string("{\"faces\": ["));
   try {
-    FormatReport(folder_);
+    MakeReport(folder_);
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("coverage.json: is not JSON"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "register/register_photograph.h"
+#include "register/register.h"
 #include "tests/bench/anchors/trackers.h"
 
 #include <memory>
@@ -15,7 +15,7 @@ std::vector<Method> GroundglassMethods(const AnchorSet& set) {
          RegisterOptions options;
          options.prior.lock = {"v", "a", "shift", "k1"};
          const Registration registration = RegisterPhotograph(
-             set.name, set.frames[start.frame].grey8, {}, start.tag, {}, *edge_model, options);
+             {set.name, set.frames[start.frame].grey8, {}, start.tag, {}}, *edge_model, options);
          return Method::Found{registration.CorrectedCamera(),
                               registration.verdict == Verdict::kAccepted};
        }}};

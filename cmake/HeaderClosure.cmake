@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: Apache-2.0
+# groundglass_header_closure(OUT TREE ROOM a.h b.h): these headers of a room and all of the same room
+# that they include, by their paths in the room.
+function(groundglass_header_closure out tree room)
+  set(waiting ${ARGN})
+  set(found)
+  while(waiting)
+    list(POP_FRONT waiting header)
+    if(header IN_LIST found)
+      continue()
+    endif()
+    list(APPEND found ${header})
+    file(STRINGS ${tree}/${room}/${header} includes REGEX "#include \"${room}/")
+    foreach(include IN LISTS includes)
+      string(REGEX REPLACE ".*\"${room}/([^\"]*)\".*" "\\1" header "${include}")
+      list(APPEND waiting ${header})
+    endforeach()
+  endwhile()
+  set(${out} ${found} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/align_photograph.h"
+
+#include "register/fill_registration.h"
+#include "scene/reduce.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+// A mask at another size: nearest neighbours.
+Image8 ResizedMask(const Image8& mask, int width, int height) {
+  if (mask.Empty()) return mask;
+  Image8 resized(width, height, 1);
+  const cv::Mat from(mask.height, mask.width, CV_8UC1, const_cast<uint8_t*>(mask.values.data()));
+  cv::Mat to(height, width, CV_8UC1, resized.values.data());
+  cv::resize(from, to, to.size(), 0, 0, cv::INTER_NEAREST);
+  return resized;
+}
+
+// The photograph's own control points, in pixels of a picture of another size.
+std::vector<ControlPoint> PointsIn(const std::string& photograph,
+                                   const std::vector<ControlPoint>& points,
+                                   double scale) {
+  std::vector<ControlPoint> own;
+  for (const ControlPoint& point : points) {
+    if (point.photograph != photograph) continue;
+    own.push_back(point);
+    own.back().image_px *= scale;
+    own.back().sigma_px *= scale;
+  }
+  return own;
+}
+
+// The registration of a photograph of which nothing is known but its tag.
+Registration StartRegistration(const PhotographInput& photograph) {
+  Registration registration;
+  registration.name = photograph.name;
+  registration.width_px = photograph.grey8.width;
+  registration.height_px = photograph.grey8.height;
+  registration.measured = photograph.measured;
+  registration.corrected = photograph.measured;
+  return registration;
+}
+
+// The size at which a photograph is registered. The parameters are angles and shares of the frame,
+// so it does not enter them.
+struct WorkingSize {
+  double scale = 1;  // pixels of the working picture for one of the photograph
+  int width_px = 0;
+  int height_px = 0;
+};
+
+WorkingSize FindWorkingSize(const Image8& grey8, int max_width_px) {
+  WorkingSize size;
+  size.scale = std::min(1.0, static_cast<double>(max_width_px) / grey8.width);
+  size.width_px = static_cast<int>(std::lround(grey8.width * size.scale));
+  size.height_px = static_cast<int>(std::lround(grey8.height * size.scale));
+  return size;
+}
+
+EdgeEvidence FindEvidence(const PhotographInput& photograph, const WorkingSize& size) {
+  if (size.width_px == photograph.grey8.width) return {photograph.grey8, photograph.ignore};
+  return {ReducedInLight(photograph.grey8, size.width_px, size.height_px),
+          ResizedMask(photograph.ignore, size.width_px, size.height_px)};
+}
+
+// What refining an accepted photograph together with others needs.
+AlignedPhotograph Align(const Solution& best,
+                        const Rival& rival,
+                        const CameraPrior& prior,
+                        const EdgeEvidence& evidence,
+                        double scale,
+                        const RegisterOptions& options) {
+  const Refinement& refined = best.refinement;
+  const ParameterProjection projection = prior.ProjectionAt(refined.whitened);
+  AlignedPhotograph aligned;
+  aligned.prior = prior;
+  aligned.found = FindCandidateSamples(refined.samples,
+                                       evidence,
+                                       prior,
+                                       projection,
+                                       0,
+                                       options.joint.spare_range * options.joint.start_range_px,
+                                       options.joint.matching);
+  aligned.whitened = refined.whitened;
+  aligned.noise_px = refined.noise_px;
+  aligned.score_samples = FindScoreSamples(
+      refined.samples, projection, evidence, options.joint.start_range_px, options.solutions.score);
+  if (rival.solution) aligned.rival_nats = rival.solution->TotalScore();
+  aligned.rival_distance_px = rival.distance_px / scale;
+  return aligned;
+}
+
+}  // namespace
+
+PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
+                                    const EdgeModel& edge_model,
+                                    const RegisterOptions& options) {
+  options.Check();
+  PhotographAlignment alignment;
+  Registration& registration = alignment.registration;
+  registration = StartRegistration(photograph);
+
+  // What is known before the photograph is looked at, and what it shows.
+  const WorkingSize size = FindWorkingSize(photograph.grey8, options.max_width_px);
+  const EdgeEvidence evidence = FindEvidence(photograph, size);
+  const CameraPrior prior = MakeCameraPrior(photograph.measured,
+                                            size.width_px,
+                                            size.height_px,
+                                            edge_model.model.unit,
+                                            photograph.lens,
+                                            PriorSuitedTo(edge_model.model, options.prior));
+  registration.prior_sigmas = prior.sigmas;
+  registration.sigmas = prior.sigmas;
+  const std::vector<ControlPoint> points =
+      PointsIn(photograph.name, options.control_points, size.scale);
+
+  // The cameras that fit, the best, and the best one elsewhere.
+  const std::vector<Solution> solutions =
+      FindSolutions(edge_model, evidence, prior, points, options.solutions);
+  if (solutions.empty()) {
+    registration.reasons.push_back("the measured tag sees almost nothing of the model");
+    registration.covariance = prior.root * prior.root.transpose();
+    return alignment;
+  }
+  const Solution& best = solutions.front();
+  const Refinement& refined = best.refinement;
+  const Rival rival = FindRival(solutions, prior, options.solutions);
+  FillRegistration({refined.whitened, refined.covariance, refined.num_matched, refined.spread},
+                   prior,
+                   edge_model.model,
+                   PointsOf(refined.samples),
+                   registration);
+
+  // Whether to believe it.
+  Evidence support{best.score, {}, rival.distance_px / size.scale};
+  if (rival.solution) support.margin_nats = best.TotalScore() - rival.solution->TotalScore();
+  registration.verdict = Verdict::kAccepted;
+  RecordEvidence(support, registration);
+  const ParameterProjection projection = prior.ProjectionAt(refined.whitened);
+  ApplyJudgement(JudgeFit(support, options.verdict), registration);
+  ApplyJudgement(JudgeConvergence(refined.outcome), registration);
+  ApplyJudgement(JudgeInnovation(refined.whitened, prior, options.verdict), registration);
+  registration.undetermined = FindUndetermined(registration.sigmas, prior, options.verdict);
+  ApplyJudgement(JudgeControlPoints(points, projection, size.scale, options.verdict), registration);
+  if (registration.verdict == Verdict::kAccepted && points.empty()) {
+    alignment.aligned = Align(best, rival, prior, evidence, size.scale, options);
+  }
+  return alignment;
+}
+
+void FinishVerdict(const RegisterOptions& options, PhotographAlignment& alignment) {
+  Registration& registration = alignment.registration;
+  if (HasCorrection(registration.verdict)) {
+    ApplyJudgement(JudgePrecision(registration, options.verdict), registration);
+  }
+  OverruleVerdict(options.overrule, registration);
+  if (registration.verdict == Verdict::kRejected) registration.corrected = registration.measured;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "register/edges/edge_samples.h"
+#include "register/joint/joint_refinement.h"
+#include "register/register_options.h"
+#include "scene/image.h"
+#include "scene/lens.h"
+#include "scene/registration.h"
+
+#include <optional>
+#include <string>
+
+namespace groundglass {
+
+// A photograph as it is registered.
+struct PhotographInput {
+  std::string name;
+  Image8 grey8;   // 1 channel
+  Image8 ignore;  // same size, non-zero where it is no evidence; may be empty
+  ViewTag measured;
+  std::optional<Lens> lens;
+};
+
+// A photograph that was aligned by itself, with what refining it together with others needs. Its
+// verdict does not heed yet how certain the camera is (FinishVerdict).
+struct PhotographAlignment {
+  Registration registration;
+  AlignedPhotograph aligned;  // empty unless the verdict is `accepted`
+};
+
+// Corrects one photograph's tag against the model's edges. Not converging is a result (verdict,
+// reasons), not an error. Throws Error for options out of range.
+PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
+                                    const EdgeModel& edge_model,
+                                    const RegisterOptions& options);
+
+// The last word on a photograph: `review` where it stays uncertain, and what a person decides.
+void FinishVerdict(const RegisterOptions& options, PhotographAlignment& alignment);
+
+}  // namespace groundglass

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/camera/camera_prior.h"
+
+#include "scene/check_option.h"
+#include "scene/error.h"
+#include "scene/model_sigma.h"
+#include "scene/symmetric_eigen.h"
+#include "scene/text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+// What a tape and a tripod leave uncertain.
+constexpr double kPosition_m = 0.076;
+constexpr double kHeight_m = 0.030;
+constexpr double kLookat_m = 0.122;
+constexpr double kBestOfRulers_m = 0.001;
+
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void RequireParameterNames(const std::vector<std::string>& names, const std::string& option) {
+  for (const std::string& name : names) {
+    if (name == "shift") continue;
+    if (std::find(kCameraParameterNames.begin(), kCameraParameterNames.end(), name) ==
+        kCameraParameterNames.end()) {
+      throw OptionError("option " + option + ":",
+                        "no parameter is called '" + name +
+                            "'; there are x y z yaw pitch roll v a shift shift_x shift_y k1");
+    }
+  }
+}
+
+// What the tag says of its own numbers, without those that are to be free.
+TagSigmas SigmasThatHold(TagSigmas sigmas, const std::vector<std::string>& free) {
+  for (const std::string& name : free) {
+    if (name == "x" || name == "y") sigmas.position.reset();
+    if (name == "z") sigmas.height.reset();
+    if (name == "yaw" || name == "pitch") sigmas.lookat.reset();
+    if (name == "roll") sigmas.roll_deg.reset();
+    if (name == "v") sigmas.view_angle_deg.reset();
+    if (name == "a") sigmas.aspect.reset();
+    if (name.starts_with("shift")) sigmas.shift.reset();
+    if (name == "k1") sigmas.k1.reset();
+  }
+  return sigmas;
+}
+
+}  // namespace
+
+void PriorOptions::Check() const {
+  const auto require_positive = [](double value, const char* name) {
+    if (!(value > 0 && std::isfinite(value))) {
+      throw OptionError(std::string("option ") + name + ":",
+                        "a standard deviation must be above 0, not " + FormatNumber(value));
+    }
+  };
+  require_positive(position_m.value_or(kPosition_m), "sigma-position");
+  CheckAtLeast(position_share, 0, "prior options: position_share");
+  require_positive(height_m.value_or(kHeight_m), "sigma-height");
+  CheckAtLeast(height_share, 0, "prior options: height_share");
+  require_positive(lookat_m.value_or(kLookat_m), "sigma-lookat");
+  CheckAtLeast(lookat_share, 0, "prior options: lookat_share");
+  require_positive(roll_deg, "sigma-roll");
+  require_positive(view_angle_share, "sigma-v");
+  require_positive(aspect_share, "sigma-a");
+  require_positive(shift, "sigma-shift");
+  require_positive(k1, "sigma-k1");
+  CheckAtLeast(slide_scale_share, 0, "prior options: slide_scale_share");
+  CheckAtLeast(slide_aspect_share, 0, "prior options: slide_aspect_share");
+  RequireParameterNames(lock, "lock");
+  RequireParameterNames(free, "free");
+  for (const std::string& name : free) {
+    if (Contains(lock, name)) {
+      throw OptionError("options lock and free:", "'" + name + "' is in both");
+    }
+  }
+}
+
+PriorOptions PriorSuitedTo(const PolygonModel& model, PriorOptions options) {
+  const double scale = ModelScale(model);
+  const auto fill_in = [&](std::optional<double>& length_m, double at_building_m) {
+    if (!length_m) length_m = std::max(scale * at_building_m, kBestOfRulers_m);
+  };
+  fill_in(options.position_m, kPosition_m);
+  fill_in(options.height_m, kHeight_m);
+  fill_in(options.lookat_m, kLookat_m);
+  return options;
+}
+
+Camera CameraPrior::CameraAt(const CameraParameters& whitened) const {
+  return CameraFromTag(TagFromParameters(ParametersAt(whitened), measured), width_px, height_px);
+}
+
+CameraPrior MakeCameraPrior(const ViewTag& tag,
+                            int width_px,
+                            int height_px,
+                            LengthUnit unit,
+                            const std::optional<Lens>& lens,
+                            const PriorOptions& options) {
+  const double units_per_metre = 1 / MetresPerUnit(unit);
+  const double distance = (tag.lookat_in_site - tag.position_in_site).norm();
+  const auto length_sigma = [&](const std::optional<double>& noted, double metres, double share) {
+    return noted.value_or(std::max(metres * units_per_metre, share * distance));
+  };
+  const TagSigmas noted_sigmas = SigmasThatHold(tag.sigmas, options.free);
+  const double position = length_sigma(
+      noted_sigmas.position, options.position_m.value_or(kPosition_m), options.position_share);
+  const double height =
+      length_sigma(noted_sigmas.height, options.height_m.value_or(kHeight_m), options.height_share);
+  const double lookat =
+      length_sigma(noted_sigmas.lookat, options.lookat_m.value_or(kLookat_m), options.lookat_share);
+
+  CameraPrior prior;
+  prior.measured = tag;
+  prior.width_px = width_px;
+  prior.height_px = height_px;
+  prior.mean = ParametersFromTag(tag);
+  CameraCovariance covariance = CameraCovariance::Zero();
+
+  // Position and direction through the measured points: finite differences of the tag itself.
+  Eigen::Matrix<double, 5, 6> by_measured;
+  for (int column = 0; column < 6; ++column) {
+    const double step = 1e-5 * distance;
+    ViewTag ahead = tag;
+    ViewTag behind = tag;
+    (column < 3 ? ahead.position_in_site[column] : ahead.lookat_in_site[column - 3]) += step;
+    (column < 3 ? behind.position_in_site[column] : behind.lookat_in_site[column - 3]) -= step;
+    Eigen::Matrix<double, 5, 1> change =
+        (ParametersFromTag(ahead) - ParametersFromTag(behind)).head<5>();
+    change[kYaw] = std::remainder(change[kYaw], 360.0);
+    by_measured.col(column) = change / (2 * step);
+  }
+  Eigen::Matrix<double, 6, 1> measured_sigmas;
+  measured_sigmas << position, position, height, lookat, lookat, lookat;
+  const Eigen::Matrix<double, 5, 6> scaled = by_measured * measured_sigmas.asDiagonal();
+  covariance.topLeftCorner<5, 5>() = scaled * scaled.transpose();
+
+  double roll = noted_sigmas.roll_deg.value_or(options.roll_deg);
+  double view_angle =
+      noted_sigmas.view_angle_deg.value_or(options.view_angle_share * tag.view_angle_deg);
+  double aspect = noted_sigmas.aspect.value_or(options.aspect_share * tag.aspect);
+  double shift_x = noted_sigmas.shift.value_or(options.shift);
+  double shift_y = shift_x;
+  double k1 = noted_sigmas.k1.value_or(options.k1);
+  if (lens) {
+    prior.mean[kViewAngle] = lens->view_angle_deg;
+    prior.mean[kAspect] = lens->aspect;
+    prior.mean[kShiftX] = lens->shift_x;
+    prior.mean[kShiftY] = lens->shift_y;
+    prior.mean[kK1] = lens->k1;
+    prior.measured.k2 = lens->k2;
+    prior.measured.k3 = lens->k3;
+    prior.measured.p1 = lens->p1;
+    prior.measured.p2 = lens->p2;
+    // A scale error of the mount changes the tangent of half the view angle.
+    const double view_angle_by_scale =
+        DegreesFromRadians(std::sin(RadiansFromDegrees(lens->view_angle_deg)));
+    const double slide = options.digital ? 0 : 1;
+    view_angle = std::hypot(lens->sigma_view_angle_deg,
+                            slide * options.slide_scale_share * view_angle_by_scale);
+    aspect = std::hypot(lens->sigma_aspect, slide * options.slide_aspect_share * lens->aspect);
+    shift_x = std::hypot(lens->sigma_shift_x, slide * options.shift);
+    shift_y = std::hypot(lens->sigma_shift_y, slide * options.shift);
+    k1 = lens->sigma_k1;
+    const auto free_at_least = [&](const char* name, double own, double& sigma) {
+      const bool is_shift = std::string_view(name).starts_with("shift");
+      if (Contains(options.free, name) || (is_shift && Contains(options.free, "shift"))) {
+        sigma = std::max(sigma, own);
+      }
+    };
+    free_at_least("v", options.view_angle_share * lens->view_angle_deg, view_angle);
+    free_at_least("a", options.aspect_share * lens->aspect, aspect);
+    free_at_least("shift_x", options.shift, shift_x);
+    free_at_least("shift_y", options.shift, shift_y);
+    free_at_least("k1", options.k1, k1);
+  }
+  const double independent[6] = {roll, view_angle, aspect, shift_x, shift_y, k1};
+  for (int i = 0; i < 6; ++i) covariance(kRoll + i, kRoll + i) = independent[i] * independent[i];
+
+  for (const std::string& name : options.lock) {
+    for (int i = 0; i < kNumCameraParameters; ++i) {
+      const bool named =
+          kCameraParameterNames[i] == name || (name == "shift" && (i == kShiftX || i == kShiftY));
+      if (!named) continue;
+      covariance.row(i).setZero();
+      covariance.col(i).setZero();
+    }
+  }
+
+  // A square root that allows locked parameters: of the correlations, so that units do not matter.
+  prior.sigmas = covariance.diagonal().cwiseSqrt();
+  CameraParameters inverse_sigmas = CameraParameters::Zero();
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (prior.sigmas[i] > 0) inverse_sigmas[i] = 1 / prior.sigmas[i];
+  }
+  const CameraCovariance correlation =
+      inverse_sigmas.asDiagonal() * covariance * inverse_sigmas.asDiagonal();
+  const SymmetricEigen eigen = DecomposeSymmetric(correlation);
+  prior.root =
+      prior.sigmas.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal();
+  return prior;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "register/camera/parameter_projection.h"
+#include "scene/camera.h"
+#include "scene/lens.h"
+#include "scene/polygon_model.h"
+#include "scene/registration.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// One standard deviation of what a tape and a tripod measure, where the tag itself does not say.
+struct PriorOptions {
+  // Camera position: the larger of a length and a share of the distance to the look-at point.
+  // Lengths that nobody gives are a tape's: 0.076 m across (a quarter of a foot; x and y each),
+  // 0.030 m for the height (a tenth of a foot) and 0.122 m (0.4 ft) for each of i, j, k; less at
+  // models smaller than a building (PriorSuitedTo).
+  std::optional<double> position_m;
+  double position_share = 0.005;
+  std::optional<double> height_m;
+  double height_share = 0.002;
+  std::optional<double> lookat_m;
+  double lookat_share = 0.01;
+  double roll_deg = 1.5;
+  double view_angle_share = 0.01;
+  double aspect_share = 0.005;
+  double shift = 0.015;  // fraction of the frame's width, each way
+  double k1 = 0.05;
+
+  // What a slide's mount and its scan add to a calibrated lens. No slides: set digital.
+  double slide_scale_share = 0.01;
+  double slide_aspect_share = 0.003;
+  bool digital = false;  // no mount and no scan: what is true of the lens holds as it is
+
+  // Parameters held at the tag's values: names of kCameraParameterNames, or "shift" for both.
+  std::vector<std::string> lock;
+  // Parameters that are looked for as if neither the tag nor the lens file gave a standard
+  // deviation: these options' own are taken, unless the lens file's are larger. Names as for lock.
+  std::vector<std::string> free;
+
+  void Check() const;  // throws Error naming the first field out of range
+};
+
+// The options with the lengths that nobody gave as suit the model: at a maquette (ModelScale) a
+// ruler takes the place of the tape, and they shrink in proportion, down to a millimetre.
+PriorOptions PriorSuitedTo(const PolygonModel& model, PriorOptions options);
+
+// What is known of a photograph's camera before looking at the photograph: a normal distribution
+// over CameraParameters. Position and look-at point are measured apart, so position and direction
+// are correlated. covariance = root * root^T; parameters = mean + root * u with u standard normal,
+// the whitened parameters.
+struct CameraPrior {
+  CameraParameters mean = CameraParameters::Zero();
+  CameraCovariance root = CameraCovariance::Zero();
+  CameraParameters sigmas = CameraParameters::Zero();
+  ViewTag measured;  // what is not solved for (k2 k3 p1 p2) stays as it says
+  // Of the picture that is aligned, in whose pixels the camera projects.
+  int width_px = 0;
+  int height_px = 0;
+
+  CameraParameters ParametersAt(const CameraParameters& whitened) const {
+    return mean + root * whitened;
+  }
+  ParameterProjection ProjectionAt(const CameraParameters& whitened) const {
+    return {ParametersAt(whitened), TagDistortion(measured), width_px, height_px};
+  }
+  Camera CameraAt(const CameraParameters& whitened) const;
+};
+// width_px x height_px: of the picture that is aligned.
+CameraPrior MakeCameraPrior(const ViewTag& tag,
+                            int width_px,
+                            int height_px,
+                            LengthUnit unit,
+                            const std::optional<Lens>& lens,
+                            const PriorOptions& options);
+
+}  // namespace groundglass

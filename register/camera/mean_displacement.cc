@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/camera/mean_displacement.h"
+
+namespace groundglass {
+
+double MeanDisplacementPx(const std::vector<Eigen::Vector3d>& points_in_world,
+                          const ParameterProjection& one,
+                          const ParameterProjection& other) {
+  double sum = 0;
+  int count = 0;
+  for (const Eigen::Vector3d& point : points_in_world) {
+    const auto a = one.Project(point);
+    const auto b = other.Project(point);
+    if (!a || !b) continue;
+    sum += (a->image_px - b->image_px).norm();
+    ++count;
+  }
+  return count ? sum / count : 0;
+}
+
+}  // namespace groundglass

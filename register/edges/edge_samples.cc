@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/edges/edge_samples.h"
+
+#include "scene/model_sigma.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+
+EdgeModel::EdgeModel(const PolygonModel& model_)
+    : model(model_),
+      edges(FindModelEdges(model_)),
+      tolerances(FindEdgeTolerances(model_, edges)),
+      visibility(model_),
+      sigma(ModelSigma(model_)) {
+  const double usual = DefaultModelSigma(model);
+  looseness = sigma > usual ? std::sqrt(sigma * sigma - usual * usual) : 0;
+}
+
+std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
+                                           const Camera& camera,
+                                           double margin_px,
+                                           double spacing_px) {
+  const std::vector<VisibleSpan> spans = FindVisibleSpans(
+      edge_model.model, edge_model.edges, edge_model.visibility, camera, margin_px);
+  std::vector<EdgeSample> samples;
+  for (const VisibleSpan& span : spans) {
+    const Eigen::Vector3d start_in_cam = camera.cam_from_world * span.start_in_world;
+    const Eigen::Vector3d end_in_cam = camera.cam_from_world * span.end_in_world;
+    const auto start_px = ProjectFromCam(camera, start_in_cam);
+    const auto end_px = ProjectFromCam(camera, end_in_cam);
+    if (!start_px || !end_px) continue;
+    const double length_px = (*end_px - *start_px).norm();
+    // Short pieces have no direction of their own, and the ends of long ones meet other lines.
+    if (length_px < 2 * spacing_px) continue;
+    const int count = static_cast<int>(length_px / spacing_px);
+    const Eigen::Vector3d direction = (span.end_in_world - span.start_in_world).normalized();
+    const ModelEdge& edge = edge_model.edges[span.edge];
+    const double edge_length = (edge.end_in_world - edge.start_in_world).norm();
+    for (int i = 0; i < count; ++i) {
+      const double s = (i + 0.5) / count;
+      const double t =
+          s * start_in_cam.z() / (end_in_cam.z() + s * (start_in_cam.z() - end_in_cam.z()));
+      const Eigen::Vector3d point =
+          span.start_in_world + t * (span.end_in_world - span.start_in_world);
+      const double along = 2 * (point - edge.start_in_world).norm() / edge_length - 1;
+      samples.push_back({point,
+                         direction,
+                         span.edge,
+                         along,
+                         length_px / count,
+                         edge_model.tolerances[span.edge].sigma,
+                         edge_model.looseness});
+    }
+  }
+  return samples;
+}
+
+std::vector<Eigen::Vector3d> PointsOf(const std::vector<EdgeSample>& samples) {
+  std::vector<Eigen::Vector3d> points_in_world;
+  points_in_world.reserve(samples.size());
+  for (const EdgeSample& sample : samples) points_in_world.push_back(sample.point_in_world);
+  return points_in_world;
+}
+
+std::vector<ProjectedSample> ProjectSamples(const std::vector<EdgeSample>& samples,
+                                            const ParameterProjection& projection) {
+  std::vector<ProjectedSample> projected(samples.size());
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const EdgeSample& sample = samples[i];
+    const auto here = projection.Project(sample.point_in_world);
+    if (!here) continue;
+    // A step along the edge of about a pixel gives its direction in the image.
+    const auto there =
+        projection.Project(sample.point_in_world + sample.direction_in_world / here->px_per_unit);
+    if (!there) continue;
+    const Eigen::Vector2d along = there->image_px - here->image_px;
+    const double length = along.norm();
+    if (!(length > 1e-3)) continue;  // seen end on
+    projected[i].is_valid = true;
+    projected[i].image_px = here->image_px;
+    projected[i].normal = {-along.y() / length, along.x() / length};
+    projected[i].jacobian = projected[i].normal.transpose() * here->jacobian;
+    projected[i].px_per_unit = here->px_per_unit;
+  }
+  return projected;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/edges/residual_spread.h"
+
+#include <cmath>
+
+namespace groundglass {
+
+ResidualSpread MeasureSpread(std::vector<WeightedValue> residuals) {
+  double weights = 0;
+  double squares = 0;
+  for (WeightedValue& residual : residuals) {
+    weights += residual.weight;
+    squares += residual.weight * residual.value * residual.value;
+    residual.value = std::abs(residual.value);
+  }
+  return {std::sqrt(squares / weights), 1.4826 * WeightedMedian(std::move(residuals), 0)};
+}
+
+}  // namespace groundglass

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/register.h"
+
+#include "register/refine_accepted.h"
+#include "scene/error.h"
+#include "scene/ignore_mask.h"
+#include "scene/image_io.h"
+#include "scene/select_photographs.h"
+
+#include <tbb/parallel_for.h>
+
+#include <mutex>
+
+namespace groundglass {
+namespace {
+
+// The options with photographs called as the scene calls them.
+RegisterOptions NamedAsInScene(RegisterOptions options, const Scene& scene) {
+  for (std::string& name : options.overrule.accept) name = NameInScene(name, scene);
+  for (std::string& name : options.overrule.reject) name = NameInScene(name, scene);
+  for (ControlPoint& point : options.control_points) {
+    point.photograph = NameInScene(point.photograph, scene);
+  }
+  return options;
+}
+
+// The tag stands as it was measured.
+Registration RejectedRegistration(const Photograph& photograph, const std::string& reason) {
+  Registration registration;
+  registration.name = photograph.name;
+  registration.width_px = photograph.size.width;
+  registration.height_px = photograph.size.height;
+  registration.reasons = {reason};
+  registration.measured = photograph.tag;
+  registration.corrected = photograph.tag;
+  return registration;
+}
+
+// Reasons name files by their path from the scene's folder, which may lie anywhere.
+Registration UnreadableRegistration(const Scene& scene,
+                                    const std::string& name,
+                                    std::vector<std::string> reasons) {
+  const std::string folder = (scene.folder / "").string();
+  for (std::string& reason : reasons) {
+    if (reason.starts_with(folder)) reason.erase(0, folder.size());
+  }
+  Registration registration;
+  registration.name = name;
+  registration.verdict = Verdict::kUnreadable;
+  registration.reasons = std::move(reasons);
+  return registration;
+}
+
+// One photograph that spoils its own alignment is news about it, and no end of the others' work.
+PhotographAlignment AlignOrSayWhyNot(const Scene& scene,
+                                     const Photograph& photograph,
+                                     const std::optional<Lens>& lens,
+                                     const EdgeModel& edge_model,
+                                     const RegisterOptions& options) {
+  PhotographInput input{photograph.name, {}, {}, photograph.tag, lens};
+  try {
+    input.grey8 = ReadGrey8(photograph.image_file);
+    if (photograph.mask_file) input.ignore = ReadIgnoreMask(*photograph.mask_file, photograph.size);
+  } catch (const Error& error) {
+    return {UnreadableRegistration(scene, photograph.name, {error.what()}), {}};
+  }
+  try {
+    PhotographAlignment alignment = AlignPhotograph(input, edge_model, options);
+    const Registration& found = alignment.registration;
+    if (ParametersFromTag(found.corrected).allFinite() && found.covariance.allFinite()) {
+      return alignment;
+    }
+    return {RejectedRegistration(photograph, "the solution for this photograph is not determined"),
+            {}};
+  } catch (const Error& error) {
+    return {RejectedRegistration(photograph, error.what()), {}};
+  }
+}
+
+}  // namespace
+
+RegisteredScene RegisterScene(const Scene& scene,
+                              const std::optional<Lens>& lens,
+                              const RegisterOptions& given_options,
+                              const Progress& progress) {
+  const RegisterOptions options = NamedAsInScene(given_options, scene);
+  options.Check();
+  const EdgeModel edge_model(scene.model);
+  const int total = static_cast<int>(scene.photographs.size());
+  std::vector<PhotographAlignment> alignments(scene.photographs.size());
+  std::mutex mutex;
+  int done = 0;
+  tbb::parallel_for(0, total, [&](int index) {
+    const Photograph& photograph = scene.photographs[index];
+    alignments[index] = AlignOrSayWhyNot(scene, photograph, lens, edge_model, options);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) {
+      progress(
+          done,
+          total,
+          photograph.name + " " + std::string(VerdictName(alignments[index].registration.verdict)));
+    }
+  });
+  RegisteredScene registered;
+  if (!options.independent) {
+    try {
+      registered.model_errors = FindModelErrors(
+          edge_model, RefineAccepted(edge_model, options, alignments), options.model_errors);
+    } catch (const Error& error) {
+      registered.warnings.push_back(
+          std::string("the photographs stay as they were found one by one, since they could not "
+                      "be refined together: ") +
+          error.what());
+    }
+  }
+  for (PhotographAlignment& alignment : alignments) {
+    FinishVerdict(options, alignment);
+    registered.registrations.push_back(std::move(alignment.registration));
+  }
+  for (const UnreadablePhotograph& unreadable : scene.unreadable) {
+    registered.registrations.push_back(
+        UnreadableRegistration(scene, unreadable.photograph.name, unreadable.reasons));
+  }
+  return registered;
+}
+
+Registration RegisterPhotograph(const PhotographInput& photograph,
+                                const EdgeModel& edge_model,
+                                const RegisterOptions& options) {
+  PhotographAlignment alignment = AlignPhotograph(photograph, edge_model, options);
+  FinishVerdict(options, alignment);
+  return std::move(alignment.registration);
+}
+
+}  // namespace groundglass

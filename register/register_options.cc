@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/register_options.h"
+
+#include "scene/check_option.h"
+
+namespace groundglass {
+
+void RegisterOptions::Check() const {
+  const std::string path = "registration options: ";
+  prior.Check();
+  solutions.Check(path + "solutions.");
+  joint.Check(path + "joint.");
+  model_errors.Check(path + "model_errors.");
+  verdict.Check(path + "verdict.");
+  overrule.Check();
+  CheckFromTo(max_width_px, 64, 100000, path + "max_width_px");
+  for (const ControlPoint& point : control_points) {
+    const std::string of = path + "control_points of " + point.photograph + ": ";
+    // A sum is finite if its terms are.
+    CheckFinite(point.image_px.sum(), of + "image_px");
+    CheckFinite(point.point_in_world.sum(), of + "point_in_world");
+    CheckAbove(point.sigma_px, 0, of + "sigma_px");
+  }
+}
+
+}  // namespace groundglass

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "register/camera/camera_prior.h"
+#include "register/camera/control_points.h"
+#include "register/joint/joint_refinement.h"
+#include "register/joint/model_errors.h"
+#include "register/refine/find_solutions.h"
+#include "register/verdict/overrule.h"
+#include "register/verdict/verdict.h"
+
+#include <functional>
+#include <vector>
+
+namespace groundglass {
+
+// The options of all stages, in the order in which they work.
+struct RegisterOptions {
+  PriorOptions prior;
+  SolutionOptions solutions;
+  JointOptions joint;
+  ModelErrorOptions model_errors;
+  VerdictOptions verdict;
+  OverruleOptions overrule;  // whose verdicts a person decides
+
+  // Each photograph by itself; else those that are accepted are refined together.
+  bool independent = false;
+  // Photographs wider than this are registered at this width, their light averaged: edges of
+  // buildings are no sharper.
+  int max_width_px = 1600;
+  // Places that a person has recognised, of all photographs, in pixels of theirs.
+  std::vector<ControlPoint> control_points;
+  // How the accepted photographs are refined together; another function is another method.
+  std::function<JointRefinement(const EdgeModel&,
+                                const std::vector<AlignedPhotograph>&,
+                                const std::vector<int>& lenses,
+                                const JointOptions&)>
+      refine_together = RefineTogether;
+
+  void Check() const;  // throws Error naming the first field out of range
+};
+
+}  // namespace groundglass

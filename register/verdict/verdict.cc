@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/verdict/verdict.h"
+
+#include "scene/check_option.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace groundglass {
+namespace {
+
+template <typename... Args>
+std::string Format(const char* format, Args... args) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
+
+// The parameter that the photograph narrowed least.
+std::string LeastCertain(const Registration& registration) {
+  int least = 0;
+  double largest_share = -1;
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (!(registration.prior_sigmas[i] > 0)) continue;
+    const double share = registration.sigmas[i] / registration.prior_sigmas[i];
+    if (share <= largest_share) continue;
+    largest_share = share;
+    least = i;
+  }
+  return std::string(kCameraParameterNames[least]);
+}
+
+// Joins one more finding to a judgement.
+void Add(Verdict verdict, const std::string& reason, Judgement& judgement) {
+  judgement.verdict = std::max(judgement.verdict, verdict);
+  judgement.reasons.push_back(reason);
+}
+
+}  // namespace
+
+void VerdictOptions::Check(const std::string& path) const {
+  CheckAtLeast(min_margin_per_vote, 0, path + "min_margin_per_vote");
+  CheckAtLeast(min_margin_nats, 0, path + "min_margin_nats");
+  CheckAtLeast(min_nats_per_vote, 0, path + "min_nats_per_vote");
+  CheckAbove(max_prior_sigmas, 0, path + "max_prior_sigmas");
+  CheckAbove(max_prior_chi_squared, 0, path + "max_prior_chi_squared");
+  CheckAbove(max_vertex_sigma_px, 0, path + "max_vertex_sigma_px");
+  CheckAbove(max_control_point_sigmas, 0, path + "max_control_point_sigmas");
+  CheckFromTo(undetermined_share, 0, 1, path + "undetermined_share");
+}
+
+void ApplyJudgement(const Judgement& judgement, Registration& registration) {
+  registration.verdict = std::max(registration.verdict, judgement.verdict);
+  registration.reasons.insert(
+      registration.reasons.end(), judgement.reasons.begin(), judgement.reasons.end());
+}
+
+Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options) {
+  Judgement judgement;
+  const AlignmentScore& score = evidence.score;
+  if (score.nats <= 0) {
+    Add(Verdict::kRejected,
+        Format("the model's edges meet the photograph's no better than by chance "
+               "(score %.0f nats)",
+               score.nats),
+        judgement);
+  }
+  const double nats_per_vote = score.nats / std::max(1.0, score.votes);
+  if (score.nats > 0 && nats_per_vote < options.min_nats_per_vote) {
+    Add(Verdict::kReview,
+        Format("few of the model's edges are in the photograph (%.2f nats a vote)", nats_per_vote),
+        judgement);
+  }
+  const double min_margin_nats =
+      std::max(options.min_margin_nats, options.min_margin_per_vote * score.votes);
+  if (evidence.margin_nats && *evidence.margin_nats < min_margin_nats) {
+    Add(Verdict::kReview,
+        Format("a rival %.1f px away fits almost as well (margin %.0f nats)",
+               evidence.rival_distance_px,
+               *evidence.margin_nats),
+        judgement);
+  }
+  return judgement;
+}
+
+Judgement JudgeConvergence(Refinement::Outcome outcome) {
+  switch (outcome) {
+    case Refinement::Outcome::kConverged:
+      return {};
+    case Refinement::Outcome::kNotSettled:
+      return {Verdict::kReview, {"refinement did not settle"}};
+    case Refinement::Outcome::kNoCovariance:
+      return {Verdict::kReview,
+              {"how certain the camera is could not be computed; the uncertainty that is given is "
+               "the tag's own"}};
+    case Refinement::Outcome::kNoSolution:
+      return {Verdict::kRejected, {"the solver found no camera that can be used"}};
+    case Refinement::Outcome::kTooFewEdges:
+      return {Verdict::kReview,
+              {"too few of the model's edges are found in the photograph; the uncertainty that is "
+               "given is the tag's own"}};
+  }
+  return {};
+}
+
+Judgement JudgeInnovation(const CameraParameters& whitened,
+                          const CameraPrior& prior,
+                          const VerdictOptions& options) {
+  Judgement judgement;
+  const double chi_squared = whitened.squaredNorm();
+  if (chi_squared > options.max_prior_chi_squared) {
+    Add(Verdict::kReview,
+        Format("the change as a whole is larger than the tag's sigmas allow "
+               "(chi-squared %.0f of 11)",
+               chi_squared),
+        judgement);
+  }
+  const CameraParameters change = SiteChange(prior.root * whitened);
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (!(prior.sigmas[i] > 0)) continue;
+    const double sigmas = std::abs(change[i]) / prior.sigmas[i];
+    if (sigmas <= options.max_prior_sigmas) continue;
+    Add(Verdict::kReview,
+        Format("%s would move by %.3g, %.1f of its standard deviations",
+               kCameraParameterNames[i].data(),
+               change[i],
+               sigmas),
+        judgement);
+  }
+  return judgement;
+}
+
+Judgement JudgePrecision(const Registration& registration, const VerdictOptions& options) {
+  const double to_640 = 640.0 / registration.width_px;
+  if (registration.vertex_sigma_px * to_640 <= options.max_vertex_sigma_px) return {};
+  return {Verdict::kReview,
+          {Format("the model's points are known to %.1f px only; %s is the least certain",
+                  registration.vertex_sigma_px,
+                  LeastCertain(registration).c_str())}};
+}
+
+Judgement JudgeControlPoints(const std::vector<ControlPoint>& points,
+                             const ParameterProjection& projection,
+                             double scale,
+                             const VerdictOptions& options) {
+  Judgement judgement;
+  for (const ControlPoint& point : points) {
+    const Eigen::Vector2d at = point.image_px / scale;
+    const auto projected = projection.Project(point.point_in_world);
+    if (!projected) {
+      Add(Verdict::kReview,
+          Format("the control point at %.0f %.0f is behind the camera", at.x(), at.y()),
+          judgement);
+      continue;
+    }
+    const double distance_px = (projected->image_px - point.image_px).norm();
+    if (distance_px <= options.max_control_point_sigmas * point.sigma_px) continue;
+    Add(Verdict::kReview,
+        Format("the control point at %.0f %.0f is seen %.1f px away, %.1f of its sigmas",
+               at.x(),
+               at.y(),
+               distance_px / scale,
+               distance_px / point.sigma_px),
+        judgement);
+  }
+  return judgement;
+}
+
+std::vector<std::string> FindUndetermined(const CameraParameters& sigmas,
+                                          const CameraPrior& prior,
+                                          const VerdictOptions& options) {
+  std::vector<std::string> names;
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (prior.sigmas[i] > 0 && sigmas[i] > options.undetermined_share * prior.sigmas[i]) {
+      names.emplace_back(kCameraParameterNames[i]);
+    }
+  }
+  return names;
+}
+
+}  // namespace groundglass

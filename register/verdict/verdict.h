@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "register/camera/camera_prior.h"
+#include "register/camera/control_points.h"
+#include "register/refine/refine_photograph.h"
+#include "register/search/score.h"
+#include "scene/registration.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// What a camera must show before it is accepted.
+struct VerdictOptions {
+  // The best solution must score this much above its best rival for each vote that was cast, and
+  // this much in all, nats.
+  double min_margin_per_vote = 0.15;
+  double min_margin_nats = 20;
+  // The best solution must score at least this for each vote that was cast (docs/accuracy.md).
+  double min_nats_per_vote = 0.2;
+  // No parameter may end further than this from its prior, in the prior's sigmas.
+  double max_prior_sigmas = 3.5;
+  // Nor may all of them together: the squared length of the whitened change (chi-squared with 11
+  // degrees of freedom; 99.9 % lie below).
+  double max_prior_chi_squared = 31.3;
+  // Nor may the model's points be known worse than this, px at a width of 640.
+  double max_vertex_sigma_px = 2;
+  // No place that a person has recognised may lie further than this from where the camera sees it,
+  // in the point's sigmas.
+  double max_control_point_sigmas = 4;
+  // A parameter whose sigma is more than this share of its prior's is no better known than before.
+  double undetermined_share = 0.9;
+
+  // Throws Error naming the first field out of range, behind `path`.
+  void Check(const std::string& path = "verdict options: ") const;
+};
+
+// What one test concludes: the best verdict that it leaves possible, and why, in words.
+struct Judgement {
+  Verdict verdict = Verdict::kAccepted;
+  std::vector<std::string> reasons;
+};
+// Lowers the registration's verdict to the judgement's, never raises it, and adds the reasons.
+void ApplyJudgement(const Judgement& judgement, Registration& registration);
+
+// What speaks for a camera: its score, and how much better it is than the best solution elsewhere,
+// if there is one, and how far away that lies.
+struct Evidence {
+  AlignmentScore score;
+  std::optional<double> margin_nats;
+  double rival_distance_px = 0;  // of the photograph
+};
+// Goodness of fit: rejected where the edges fit no better than by chance, review where they fit
+// little, or elsewhere almost as well.
+Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options);
+
+// How far the refinement came.
+Judgement JudgeConvergence(Refinement::Outcome outcome);
+
+// Innovation: review where the change from prior to solution is larger than the tag's sigmas allow,
+// as a whole (chi-squared) or in one parameter. whitened: the solution.
+Judgement JudgeInnovation(const CameraParameters& whitened,
+                          const CameraPrior& prior,
+                          const VerdictOptions& options);
+
+// Precision: review where the model's points stay less certain than options.max_vertex_sigma_px.
+// The last to judge: other photographs may have made them certain.
+Judgement JudgePrecision(const Registration& registration, const VerdictOptions& options);
+
+// Review where a control point lies further than options.max_control_point_sigmas from where the
+// camera sees it: somebody mistyped it or pointed at something else.
+// scale: pixels of the points per pixel of the photograph.
+Judgement JudgeControlPoints(const std::vector<ControlPoint>& points,
+                             const ParameterProjection& projection,
+                             double scale,
+                             const VerdictOptions& options);
+
+// The parameters that a photograph leaves no better known than the prior, by name.
+std::vector<std::string> FindUndetermined(const CameraParameters& sigmas,
+                                          const CameraPrior& prior,
+                                          const VerdictOptions& options);
+
+}  // namespace groundglass

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/joint/joint_refinement.h"
+
+#include "register/refine_accepted.h"
+#include "tests/register/house.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+constexpr int kWidth = 600;
+constexpr int kHeight = 400;
+
+ViewTag TagAt(double x, double y, double z, double i, double j, double k) {
+  ViewTag tag;
+  tag.position_in_site = {x, y, z};
+  tag.lookat_in_site = {i, j, k};
+  tag.aspect = 1.5;
+  tag.view_angle_deg = 54;
+  return tag;
+}
+
+// Four cameras on the house's south side: `site` counts y southwards.
+std::vector<ViewTag> TrueTags() {
+  return {TagAt(-20, 55, 6, 18, -6, 9),
+          TagAt(8, 62, 5, 20, -8, 9),
+          TagAt(38, 60, 7, 20, -8, 10),
+          TagAt(66, 45, 6, 24, -6, 9)};
+}
+
+// The tags as a tape has them.
+std::vector<ViewTag> MeasuredTags() {
+  std::vector<ViewTag> tags = TrueTags();
+  const Eigen::Vector3d errors[] = {
+      {0.3, -0.2, 0.1}, {-0.25, 0.3, -0.1}, {0.2, 0.25, 0.05}, {-0.3, -0.1, 0.1}};
+  for (size_t i = 0; i < tags.size(); ++i) {
+    tags[i].position_in_site += errors[i];
+    tags[i].lookat_in_site -= errors[3 - i];
+  }
+  return tags;
+}
+
+std::vector<PhotographAlignment> AlignAll(const PolygonModel& built, const EdgeModel& edge_model) {
+  std::vector<PhotographAlignment> alignments;
+  const std::vector<ViewTag> truth = TrueTags();
+  const std::vector<ViewTag> measured = MeasuredTags();
+  for (size_t i = 0; i < truth.size(); ++i) {
+    const Image8 photograph =
+        PhotographModel(built, CameraFromTag(truth[i], kWidth, kHeight), 2, i + 1);
+    alignments.push_back(AlignPhotograph(
+        {"s" + std::to_string(i + 1), photograph, {}, measured[i], {}}, edge_model, {}));
+  }
+  return alignments;
+}
+
+double MeanVertexErrorPx(const PolygonModel& model,
+                         const std::vector<PhotographAlignment>& alignments) {
+  double sum = 0;
+  for (size_t i = 0; i < alignments.size(); ++i) {
+    sum += VertexErrorPx(model,
+                         CameraFromTag(TrueTags()[i], kWidth, kHeight),
+                         alignments[i].registration.CorrectedCamera());
+  }
+  return sum / static_cast<double>(alignments.size());
+}
+
+// The house as built: its lean-to is 0.3 ft higher than in the plan.
+PolygonModel WithAHigherShed(PolygonModel model) {
+  for (Eigen::Vector3d& point : model.points_in_world) {
+    if (point.z() == 8) point.z() += 0.3;
+  }
+  return model;
+}
+
+TEST(RefineTogether, AnEdgeThatThePlanHasTooLowIsFoundAndDragsNoCamera) {
+  const PolygonModel plan = MakeHouse();
+  const PolygonModel built = WithAHigherShed(plan);
+  const EdgeModel edge_model(plan);
+  std::vector<PhotographAlignment> alignments = AlignAll(built, edge_model);
+  for (const PhotographAlignment& alignment : alignments) {
+    ASSERT_EQ(alignment.registration.verdict, Verdict::kAccepted) << alignment.registration.name;
+  }
+  const double alone_px = MeanVertexErrorPx(built, alignments);
+  const std::vector<EdgeDisplacement> displacements = RefineAccepted(edge_model, {}, alignments);
+  EXPECT_LT(MeanVertexErrorPx(built, alignments), 0.8 * alone_px);
+
+  int num_shed = 0;
+  for (const EdgeDisplacement& found : displacements) {
+    const ModelEdge& edge = edge_model.edges[found.edge];
+    const double up = (found.start_in_world.z() + found.end_in_world.z()) / 2;
+    const bool is_eave = edge.start_in_world.z() == 8 && edge.end_in_world.z() == 8;
+    if (is_eave && found.num_photographs >= 3 && edge.start_in_world.y() < -1 &&
+        edge.end_in_world.y() < -1) {
+      ++num_shed;
+      EXPECT_NEAR(up, 0.3, 0.06);
+      EXPECT_LT(std::sqrt(found.covariance(2, 2)), 0.06);
+    }
+  }
+  EXPECT_EQ(num_shed, 1);  // the long eave, in front
+
+  // The list of what is off holds eaves of the lean-to and nothing else.
+  const std::vector<ModelError> errors = FindModelErrors(edge_model, displacements, {});
+  ASSERT_FALSE(errors.empty());
+  for (const ModelError& error : errors) {
+    EXPECT_EQ(error.start_in_world.z(), 8) << error.name;
+    EXPECT_NEAR(error.offset_in_world.z(), 0.3, 0.06) << error.name;
+    EXPECT_GE(error.num_photographs, 3);
+    EXPECT_GT(error.sigma, 0);
+  }
+}
+
+// The house as it stands in its garden: a lawn 0.4 ft above the plan's ground hides the foot of
+// every wall.
+PolygonModel InALawn(PolygonModel model) {
+  const auto first = static_cast<int>(model.points_in_world.size());
+  for (const auto& [x, y] :
+       {std::pair(-60.0, -60.0), {100.0, -60.0}, {100.0, 80.0}, {-60.0, 80.0}}) {
+    model.points_in_world.push_back({x, y, 0.4});
+  }
+  model.faces.push_back({{first, first + 1, first + 2, first + 3}, "lawn"});
+  return model;
+}
+
+TEST(RefineTogether, ALawnThatHidesTheFootOfAllWallsDragsNoCamera) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  std::vector<PhotographAlignment> alignments = AlignAll(InALawn(model), edge_model);
+  const std::vector<EdgeDisplacement> displacements = RefineAccepted(edge_model, {}, alignments);
+  EXPECT_LT(MeanVertexErrorPx(model, alignments), 0.35);
+  int num_ground = 0;
+  for (const EdgeDisplacement& found : displacements) {
+    if (!edge_model.tolerances[found.edge].on_ground || found.num_photographs < 2) continue;
+    ++num_ground;
+    EXPECT_NEAR(found.start_in_world.z(), 0.4, 0.1);
+    EXPECT_EQ(found.start_in_world, found.end_in_world);
+  }
+  EXPECT_GE(num_ground, 2);
+}
+
+TEST(RefineTogether, WithAnExactModelCamerasStayAndTruthLiesInTheirEllipsoids) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
+  RefineAccepted(edge_model, {}, alignments);
+  EXPECT_LT(MeanVertexErrorPx(model, alignments), 0.35);
+  for (size_t i = 0; i < alignments.size(); ++i) {
+    const Registration& registration = alignments[i].registration;
+    EXPECT_EQ(registration.verdict, Verdict::kAccepted);
+    CameraParameters difference =
+        ParametersFromTag(TrueTags()[i]) - ParametersFromTag(registration.corrected);
+    difference[3] = std::remainder(difference[3], 360.0);
+    const double squared =
+        difference.dot(registration.covariance.completeOrthogonalDecomposition().solve(difference));
+    EXPECT_LT(squared, 19.68) << registration.name;  // chi-squared, 11 degrees of freedom, 95 %
+  }
+}
+
+// Each photograph is scored again by the camera that is written, not by the one that it found
+// alone.
+TEST(RefineAccepted, TheScoreIsThatOfTheCameraThatIsWritten) {
+  const PolygonModel plan = MakeHouse();
+  const PolygonModel built = WithAHigherShed(plan);
+  const EdgeModel edge_model(plan);
+  std::vector<PhotographAlignment> alignments = AlignAll(built, edge_model);
+  std::vector<double> alone;
+  for (const PhotographAlignment& alignment : alignments) {
+    alone.push_back(alignment.registration.score_nats);
+  }
+  RefineAccepted(edge_model, {}, alignments);
+  for (size_t i = 0; i < alignments.size(); ++i) {
+    const Registration& registration = alignments[i].registration;
+    const EdgeEvidence evidence(
+        PhotographModel(built, CameraFromTag(TrueTags()[i], kWidth, kHeight), 2, i + 1), {});
+    const AlignmentScore score = ScoreAlignment(
+        SampleVisibleEdges(edge_model, registration.CorrectedCamera(), -3, 4),
+        ParameterProjection(ParametersFromTag(registration.corrected), {}, kWidth, kHeight),
+        evidence,
+        {});
+    EXPECT_NE(registration.score_nats, alone[i]);
+    EXPECT_NEAR(registration.score_nats, score.nats, 0.03 * score.nats);
+  }
+}
+
+TEST(FindModelErrors, AnExactModelHasNone) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
+  const std::vector<EdgeDisplacement> displacements = RefineAccepted(edge_model, {}, alignments);
+  EXPECT_FALSE(displacements.empty());
+  EXPECT_TRUE(FindModelErrors(edge_model, displacements, {}).empty());
+}
+
+TEST(RefineTogether, PhotographsOfOneLensEndWithOneK1) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
+  double spread_alone = 0;
+  for (const PhotographAlignment& alignment : alignments) {
+    spread_alone = std::max(
+        spread_alone,
+        std::abs(alignment.registration.corrected.k1 - alignments[0].registration.corrected.k1));
+  }
+  RefineAccepted(edge_model, {}, alignments);
+  double spread = 0;
+  for (const PhotographAlignment& alignment : alignments) {
+    spread = std::max(
+        spread,
+        std::abs(alignment.registration.corrected.k1 - alignments[0].registration.corrected.k1));
+  }
+  EXPECT_LT(spread, 0.001);
+  EXPECT_GT(spread_alone, 3 * spread);
+}
+
+TEST(RefineAccepted, DigitalPhotographsOfOneLensEndWithOneViewAngleAndAspect) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  for (const bool digital : {false, true}) {
+    RegisterOptions options;
+    options.prior.digital = digital;
+    std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
+    RefineAccepted(edge_model, options, alignments);
+    double view_angle_spread_deg = 0;
+    double aspect_spread = 0;
+    const ViewTag& first = alignments[0].registration.corrected;
+    for (const PhotographAlignment& alignment : alignments) {
+      const ViewTag& tag = alignment.registration.corrected;
+      view_angle_spread_deg =
+          std::max(view_angle_spread_deg, std::abs(tag.view_angle_deg - first.view_angle_deg));
+      aspect_spread = std::max(aspect_spread, std::abs(tag.aspect - first.aspect));
+    }
+    EXPECT_EQ(view_angle_spread_deg < 0.02, digital) << view_angle_spread_deg;
+    EXPECT_EQ(aspect_spread < 0.0005, digital) << aspect_spread;
+  }
+}
+
+TEST(RefineTogether, LockedParametersStayLocked) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  RegisterOptions options;
+  options.prior.lock = {"v", "a", "k1"};
+  std::vector<PhotographAlignment> alignments;
+  for (size_t i = 0; i < 2; ++i) {
+    const Image8 photograph =
+        PhotographModel(model, CameraFromTag(TrueTags()[i], kWidth, kHeight), 2, i + 1);
+    alignments.push_back(AlignPhotograph(
+        {"s" + std::to_string(i), photograph, {}, MeasuredTags()[i], {}}, edge_model, options));
+  }
+  RefineAccepted(edge_model, options, alignments);
+  for (const PhotographAlignment& alignment : alignments) {
+    EXPECT_DOUBLE_EQ(alignment.registration.corrected.view_angle_deg, 54);
+    EXPECT_DOUBLE_EQ(alignment.registration.corrected.aspect, 1.5);
+    EXPECT_DOUBLE_EQ(alignment.registration.corrected.k1, 0);
+    EXPECT_EQ(alignment.registration.sigmas[10], 0);
+  }
+}
+
+TEST(RefineAccepted, OnePhotographStaysAsItIs) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
+  for (size_t i = 1; i < alignments.size(); ++i) {
+    alignments[i].registration.verdict = Verdict::kReview;
+  }
+  const ViewTag before = alignments[0].registration.corrected;
+  EXPECT_TRUE(RefineAccepted(edge_model, {}, alignments).empty());
+  EXPECT_EQ(alignments[0].registration.corrected, before);
+}
+
+}  // namespace
+}  // namespace groundglass

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/verdict/verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace groundglass {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(JudgeFit, WithoutARivalThereIsNothingAgainstIt) {
+  const Judgement judgement = JudgeFit({{400, 300}, std::nullopt, 0}, {});
+  EXPECT_EQ(judgement.verdict, Verdict::kAccepted);
+  EXPECT_THAT(judgement.reasons, IsEmpty());
+}
+
+TEST(JudgeFit, ARivalThatFitsAlmostAsWellIsReviewed) {
+  const Judgement judgement = JudgeFit({{400, 300}, 30, 7.5}, {});
+  EXPECT_EQ(judgement.verdict, Verdict::kReview);
+  EXPECT_THAT(judgement.reasons,
+              ElementsAre("a rival 7.5 px away fits almost as well (margin 30 nats)"));
+  EXPECT_EQ(JudgeFit({{400, 300}, 46, 7.5}, {}).verdict, Verdict::kAccepted);
+}
+
+TEST(JudgeFit, NoBetterThanChanceIsRejected) {
+  EXPECT_EQ(JudgeFit({{-3, 300}, std::nullopt, 0}, {}).verdict, Verdict::kRejected);
+  EXPECT_EQ(JudgeFit({{30, 300}, std::nullopt, 0}, {}).verdict, Verdict::kReview);
+}
+
+TEST(JudgeFit, ItsLimitsAreTheOptions) {
+  VerdictOptions options;
+  options.min_nats_per_vote = 0.05;
+  EXPECT_EQ(JudgeFit({{30, 300}, std::nullopt, 0}, options).verdict, Verdict::kAccepted);
+  options.min_margin_per_vote = 0;
+  options.min_margin_nats = 29;
+  EXPECT_EQ(JudgeFit({{400, 300}, 30, 7.5}, options).verdict, Verdict::kAccepted);
+  options.min_margin_nats = 31;
+  EXPECT_EQ(JudgeFit({{400, 300}, 30, 7.5}, options).verdict, Verdict::kReview);
+}
+
+TEST(JudgeConvergence, WhatTheSolverCouldNotDoIsAVerdictWithItsReason) {
+  using Outcome = Refinement::Outcome;
+  const std::pair<Outcome, Verdict> expected[] = {{Outcome::kConverged, Verdict::kAccepted},
+                                                  {Outcome::kNotSettled, Verdict::kReview},
+                                                  {Outcome::kNoCovariance, Verdict::kReview},
+                                                  {Outcome::kNoSolution, Verdict::kRejected},
+                                                  {Outcome::kTooFewEdges, Verdict::kReview}};
+  for (const auto& [outcome, verdict] : expected) {
+    const Judgement judgement = JudgeConvergence(outcome);
+    EXPECT_EQ(judgement.verdict, verdict);
+    EXPECT_EQ(judgement.reasons.empty(), verdict == Verdict::kAccepted);
+  }
+}
+
+// Of parameters that do not depend on one another, sigma 2 each; the last is locked.
+CameraPrior IndependentPrior() {
+  CameraPrior prior;
+  prior.sigmas.setConstant(2);
+  prior.sigmas[kNumCameraParameters - 1] = 0;
+  prior.root = prior.sigmas.asDiagonal();
+  return prior;
+}
+
+TEST(JudgeInnovation, AChangeWithinTheSigmasIsAccepted) {
+  // Eleven times 1.6 squared is 28.2, below 31.3.
+  const CameraParameters whitened = CameraParameters::Constant(1.6);
+  EXPECT_EQ(JudgeInnovation(whitened, IndependentPrior(), {}).verdict, Verdict::kAccepted);
+}
+
+TEST(JudgeInnovation, ManySmallChangesAreTooMuchTogether) {
+  const CameraParameters whitened = CameraParameters::Constant(1.7);
+  const Judgement judgement = JudgeInnovation(whitened, IndependentPrior(), {});
+  EXPECT_EQ(judgement.verdict, Verdict::kReview);
+  EXPECT_THAT(judgement.reasons, ElementsAre(HasSubstr("chi-squared 32 of 11")));
+}
+
+TEST(JudgeInnovation, OneParameterThatMovesTooFarIsNamed) {
+  CameraParameters whitened = CameraParameters::Zero();
+  whitened[2] = 4;
+  const Judgement judgement = JudgeInnovation(whitened, IndependentPrior(), {});
+  EXPECT_THAT(judgement.reasons, ElementsAre("z would move by 8, 4.0 of its standard deviations"));
+}
+
+TEST(FindUndetermined, NamesWhatAPhotographDidNotNarrow) {
+  CameraParameters sigmas = CameraParameters::Constant(1.0);
+  sigmas[1] = 1.9;
+  sigmas[kNumCameraParameters - 1] = 5;  // locked: not looked at
+  EXPECT_THAT(FindUndetermined(sigmas, IndependentPrior(), {}), ElementsAre("y"));
+  EXPECT_THAT(FindUndetermined(sigmas, IndependentPrior(), {.undetermined_share = 0.96}),
+              IsEmpty());
+}
+
+TEST(JudgePrecision, CountsInPixelsAtAWidthOf640AndNamesTheLeastCertain) {
+  Registration registration;
+  registration.width_px = 1280;
+  registration.vertex_sigma_px = 3.9;
+  EXPECT_EQ(JudgePrecision(registration, {}).verdict, Verdict::kAccepted);
+  registration.vertex_sigma_px = 4.1;
+  registration.prior_sigmas.setOnes();
+  registration.sigmas.setConstant(0.5);
+  registration.sigmas[6] = 0.8;
+  const Judgement judgement = JudgePrecision(registration, {});
+  EXPECT_EQ(judgement.verdict, Verdict::kReview);
+  EXPECT_THAT(judgement.reasons,
+              ElementsAre("the model's points are known to 4.1 px only; v is the least certain"));
+}
+
+TEST(JudgeControlPoints, OneThatIsSeenElsewhereIsToldInThePhotographsPixels) {
+  ViewTag tag;
+  tag.position_in_site = {0, 100, 0};
+  tag.lookat_in_site = {0, 0, 0};
+  const ParameterProjection projection(ParametersFromTag(tag), {}, 600, 400);
+  // The origin is seen in the middle.
+  const ControlPoint right{"s1", {300, 203}, {0, 0, 0}, 1};
+  const ControlPoint wrong{"s1", {300, 210}, {0, 0, 0}, 2};
+  const ControlPoint behind{"s1", {300, 200}, {0, -200, 0}, 2};
+  EXPECT_EQ(JudgeControlPoints({right}, projection, 0.5, {}).verdict, Verdict::kAccepted);
+  const Judgement judgement = JudgeControlPoints({right, wrong, behind}, projection, 0.5, {});
+  EXPECT_EQ(judgement.verdict, Verdict::kReview);
+  EXPECT_THAT(judgement.reasons,
+              ElementsAre("the control point at 600 420 is seen 20.0 px away, 5.0 of its sigmas",
+                          "the control point at 600 400 is behind the camera"));
+}
+
+TEST(ApplyJudgement, LowersAndNeverRaises) {
+  Registration registration;
+  registration.verdict = Verdict::kReview;
+  registration.reasons = {"first"};
+  ApplyJudgement({}, registration);
+  EXPECT_EQ(registration.verdict, Verdict::kReview);
+  ApplyJudgement({Verdict::kRejected, {"second"}}, registration);
+  ApplyJudgement({Verdict::kReview, {"third"}}, registration);
+  EXPECT_EQ(registration.verdict, Verdict::kRejected);
+  EXPECT_THAT(registration.reasons, ElementsAre("first", "second", "third"));
+}
+
+}  // namespace
+}  // namespace groundglass
