@@ -14,7 +14,7 @@ namespace groundglass {
 namespace {
 
 // Without an image's extension, its folders kept. Windows' slashes count as ours.
-std::string WithoutExtension(const std::string& typed) {
+std::string TypedWithoutExtension(const std::string& typed) {
   std::string name = typed;
   std::replace(name.begin(), name.end(), '\\', '/');
   const std::filesystem::path path(name);
@@ -22,7 +22,7 @@ std::string WithoutExtension(const std::string& typed) {
 }
 
 std::string WithoutFolders(const std::string& name) {
-  return std::filesystem::path(WithoutExtension(name)).filename().string();
+  return std::filesystem::path(TypedWithoutExtension(name)).filename().string();
 }
 
 std::string AsTyped(const std::string& name) { return name; }
@@ -44,7 +44,7 @@ std::string Skeleton(const std::string& name) {
 }
 
 using Form = std::string (*)(const std::string&);
-constexpr std::array<Form, 4> kForms = {AsTyped, WithoutExtension, WithoutFolders, Folded};
+constexpr std::array<Form, 4> kForms = {AsTyped, TypedWithoutExtension, WithoutFolders, Folded};
 
 // Those whose name or file's name has the same form as the word.
 std::vector<size_t> FindInForm(Form form,

@@ -35,7 +35,7 @@ float ReadFloat(std::string_view bytes, size_t at) {
 }
 
 // Binary files may begin with "solid" too: their length tells, or what follows.
-bool IsText(std::string_view bytes) {
+bool IsTextStl(std::string_view bytes) {
   constexpr size_t kLookedAt = 2048;
   std::string_view start = bytes.substr(0, kLookedAt);
   if (start.substr(0, 3) == "\xEF\xBB\xBF") start.remove_prefix(3);
@@ -163,7 +163,7 @@ MeshReading ReadStl(const std::filesystem::path& file) {
   MeshReading reading;
   PolygonModel& model = reading.textured.model;
   model.is_unit_assumed = true;
-  if (IsText(bytes)) {
+  if (IsTextStl(bytes)) {
     ReadText(bytes, file, model);
   } else {
     ReadBinary(bytes, file, model, reading.warnings);
