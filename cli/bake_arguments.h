@@ -2,9 +2,9 @@
 // Part of Groundglass.
 #pragma once
 
+#include "invrender/bake.h"
 #include "invrender/bake_output.h"
-#include "invrender/invrender.h"
-#include "invrender/tiles.h"
+#include "invrender/tiles1988/tiles.h"
 #include "scene/scene_folder.h"
 
 #include <CLI/CLI.hpp>

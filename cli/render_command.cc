@@ -3,7 +3,7 @@
 #include "cli/commands.h"
 #include "cli/model_arguments.h"
 #include "cli/option_range.h"
-#include "invrender/tiles.h"
+#include "invrender/tiles1988/tiles.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
 #include "scene/scene_folder.h"

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/invrender.h"
+#include "invrender/inputs/bake_photograph.h"
 #include "scene/colmap_io.h"
 #include "scene/registration.h"
 #include "scene/scene_folder.h"

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/invrender.h"
+#include "invrender/inputs/bake_photograph.h"
 #include "scene/photograph_name.h"
 #include "scene/polygon_model.h"
 

@@ -4,8 +4,9 @@
 // texel the nearest pixel of one photograph, Thorman 1988, Figure 7), by this project, and the
 // truth.
 #include "datasets-synthetic/truth.h"
+#include "invrender/bake.h"
 #include "invrender/bake_output.h"
-#include "invrender/invrender.h"
+#include "invrender/photos/face_mask.h"
 #include "scene/image_io.h"
 #include "scene/scene_folder.h"
 #include "viewer/renderer.h"

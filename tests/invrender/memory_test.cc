@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "invrender/charts.h"
-#include "invrender/invrender.h"
-#include "invrender/memory_plan.h"
-#include "invrender/prepared_photo.h"
-#include "invrender/texel_size.h"
+#include "invrender/bake.h"
+#include "invrender/charts/charts.h"
+#include "invrender/measure/texel_size.h"
+#include "invrender/photos/prepared_photo.h"
+#include "invrender/plan/memory_plan.h"
 #include "scene/colmap_io.h"
 #include "scene/error.h"
 #include "scene/image_io.h"
@@ -143,7 +143,7 @@ TEST(Memory, MasksTakeNoMoreThanASurveyForetells) {
       num_bytes +=
           static_cast<double>(brick.Prepare(i, {.num_halvings = halvings}).Mask().NumBytes());
     }
-    const double foretold = ForetellMaskBytes(survey, halvings);
+    const double foretold = EstimateMaskBytes(survey, halvings);
     EXPECT_LE(num_bytes, foretold) << halvings;
     EXPECT_GE(num_bytes, 0.4 * foretold) << halvings;
     // A pixel takes less than a byte even where it is finest.
@@ -163,8 +163,8 @@ TEST(Memory, CoarseMasksSeeWhatFineOnesSee) {
       for (const int face : brick.charts[i].faces) {
         for (const Eigen::Vector3d& point : SpreadPoints(brick.model, face)) {
           const Eigen::Vector2d on_plane = brick.charts[i].PlanePoint(point);
-          const auto expected = fine.Sight(view, on_plane, face);
-          const auto found = coarse.Sight(view, on_plane, face);
+          const auto expected = fine.Observe(view, on_plane, face);
+          const auto found = coarse.Observe(view, on_plane, face);
           num_seen += expected ? 1 : 0;
           num_different += expected.has_value() != found.has_value() ? 1 : 0;
           if (!expected || !found) continue;

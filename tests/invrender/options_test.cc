@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "invrender/invrender.h"
-#include "invrender/tiles.h"
+#include "invrender/bake.h"
+#include "invrender/tiles1988/tiles.h"
 #include "tests/support/spoilt_options.h"
 
 #include <gtest/gtest.h>

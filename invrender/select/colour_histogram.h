@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <cstdint>
+#include <unordered_map>
+
+namespace groundglass {
+
+// The colours that a surface is known to have: a sparse histogram of log radiance.
+class ColourHistogram {
+ public:
+  void Add(const Eigen::Array3f& log_radiance, double count = 1);
+
+  // How unlike the palette a colour is: 0 for the common ones, up to kMostSurprising for colours
+  // never seen; nothing surprises an empty palette.
+  float NegativeLogLikelihood(const Eigen::Array3f& log_radiance);
+  static constexpr float kMostSurprising = 6;
+
+ private:
+  static uint64_t Bin(const Eigen::Array3f& log_radiance, int dx, int dy, int dz);
+
+  std::unordered_map<uint64_t, double> counts_;
+  std::unordered_map<uint64_t, float> surprises_;  // of the bins asked for since the last Add
+  double total_ = 0;
+};
+
+}  // namespace groundglass
