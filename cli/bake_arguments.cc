@@ -4,8 +4,8 @@
 
 #include "invrender/selection.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/photograph_name.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/photograph_name.h"
 #include "scene/text.h"
 
 #include <malloc.h>

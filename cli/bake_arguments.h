@@ -5,7 +5,7 @@
 #include "invrender/bake.h"
 #include "invrender/bake_output.h"
 #include "invrender/tiles1988/tiles.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/scene_folder.h"
 
 #include <CLI/CLI.hpp>
 

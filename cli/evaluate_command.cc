@@ -8,10 +8,10 @@
 #include "datasets-synthetic/error_plot.h"
 #include "datasets-synthetic/evaluate.h"
 #include "datasets-synthetic/trials.h"
-#include "scene/atomic_file.h"
 #include "scene/error.h"
-#include "scene/model_io.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/model_io.h"
+#include "scene/formats/scene_folder.h"
 #include "viewer/renderer.h"
 
 #include <cstdio>

@@ -9,12 +9,12 @@
 #include "cli/stage_keys.h"
 #include "cli/texture_stages.h"
 #include "cli/warnings_last.h"
-#include "scene/advice.h"
+#include "scene/advice/advice.h"
 #include "scene/error.h"
-#include "scene/model_io.h"
-#include "scene/output_folder.h"
-#include "scene/pose_check.h"
-#include "scene/registration_io.h"
+#include "scene/formats/model_io.h"
+#include "scene/formats/output_folder.h"
+#include "scene/formats/pose_check.h"
+#include "scene/formats/registration_io.h"
 #include "scene/text.h"
 
 #include <nlohmann/json.hpp>

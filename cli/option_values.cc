@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "cli/option_values.h"
 
-#include "scene/output_folder.h"
+#include "scene/formats/output_folder.h"
 
 #include <algorithm>
 #include <array>

@@ -4,11 +4,11 @@
 
 #include "cli/warnings_last.h"
 #include "register/register.h"
-#include "scene/advice.h"
+#include "scene/advice/advice.h"
+#include "scene/formats/pose_check.h"
+#include "scene/formats/registration_io.h"
+#include "scene/formats/select_photographs.h"
 #include "scene/frames.h"
-#include "scene/pose_check.h"
-#include "scene/registration_io.h"
-#include "scene/select_photographs.h"
 
 #include <nlohmann/json.hpp>
 

@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 #include "cli/model_arguments.h"
 #include "register/register.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/scene_folder.h"
 
 #include <CLI/CLI.hpp>
 

@@ -9,7 +9,7 @@
 #include "cli/stage_keys.h"
 #include "cli/texture_stages.h"
 #include "cli/warnings_last.h"
-#include "scene/registration_io.h"
+#include "scene/formats/registration_io.h"
 
 #include <cstdio>
 #include <memory>

@@ -5,8 +5,8 @@
 #include "register/register.h"
 #include "register/registration_output.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/registration_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/registration_io.h"
 #include "viewer/overlay.h"
 
 #include <tbb/parallel_for.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cli/register_arguments.h"
-#include "scene/output_stages.h"
+#include "scene/formats/output_stages.h"
 
 #include <string>
 #include <vector>

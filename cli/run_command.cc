@@ -11,9 +11,9 @@
 #include "cli/stage_keys.h"
 #include "cli/texture_stages.h"
 #include "cli/warnings_last.h"
-#include "scene/atomic_file.h"
 #include "scene/error.h"
-#include "scene/registration_io.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/registration_io.h"
 #include "viewer/report.h"
 
 #include <array>

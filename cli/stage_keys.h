@@ -3,8 +3,8 @@
 #pragma once
 
 #include "cli/commands.h"
-#include "scene/output_folder.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/output_folder.h"
+#include "scene/formats/scene_folder.h"
 
 #include <map>
 #include <string>

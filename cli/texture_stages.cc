@@ -3,8 +3,8 @@
 #include "cli/texture_stages.h"
 
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/textured_model_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/textured_model_io.h"
 #include "viewer/camera_path.h"
 #include "viewer/renderer.h"
 

@@ -4,7 +4,7 @@
 
 #include "cli/bake_arguments.h"
 #include "cli/commands.h"
-#include "scene/output_stages.h"
+#include "scene/formats/output_stages.h"
 #include "scene/registration.h"
 
 #include <optional>

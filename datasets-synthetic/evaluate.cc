@@ -6,9 +6,9 @@
 #include "datasets-synthetic/texel_map.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
-#include "scene/image_io.h"
-#include "scene/registration_io.h"
-#include "scene/textured_model_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/registration_io.h"
+#include "scene/formats/textured_model_io.h"
 #include "scene/visibility.h"
 
 #include <tbb/parallel_for.h>

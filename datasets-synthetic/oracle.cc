@@ -5,9 +5,9 @@
 #include "datasets-synthetic/occluders.h"
 #include "scene/cubic_weights.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/image_kind.h"
-#include "scene/photograph_name.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/image_kind.h"
+#include "scene/formats/photograph_name.h"
 #include "scene/srgb.h"
 #include "scene/visibility.h"
 

@@ -5,7 +5,7 @@
 #include "datasets-synthetic/surface_truth.h"
 #include "datasets-synthetic/texel_map.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/srgb.h"
 
 #include <tbb/parallel_for.h>

@@ -5,8 +5,8 @@
 #include "datasets-synthetic/notebook.h"
 #include "datasets-synthetic/truth.h"
 #include "register/register.h"
+#include "scene/formats/scene_folder.h"
 #include "scene/progress.h"
-#include "scene/scene_folder.h"
 
 #include <optional>
 #include <string>

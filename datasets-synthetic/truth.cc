@@ -3,9 +3,9 @@
 #include "datasets-synthetic/truth.h"
 
 #include "scene/error.h"
-#include "scene/image_paths.h"
-#include "scene/scene_folder.h"
-#include "scene/view_io.h"
+#include "scene/formats/image_paths.h"
+#include "scene/formats/scene_folder.h"
+#include "scene/formats/view_io.h"
 
 #include <algorithm>
 

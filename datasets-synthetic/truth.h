@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/camera.h"
-#include "scene/colmap_io.h"
+#include "scene/formats/colmap_io.h"
 #include "scene/view_tag.h"
 
 #include <filesystem>

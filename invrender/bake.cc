@@ -20,7 +20,7 @@
 #include "invrender/select/choose.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/scene_folder.h"
 
 #include <tbb/parallel_for.h>
 

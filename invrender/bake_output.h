@@ -3,9 +3,9 @@
 #pragma once
 
 #include "invrender/inputs/bake_photograph.h"
-#include "scene/colmap_io.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/scene_folder.h"
 #include "scene/registration.h"
-#include "scene/scene_folder.h"
 
 #include <filesystem>
 #include <functional>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "invrender/inputs/bake_photograph.h"
-#include "scene/photograph_name.h"
+#include "scene/formats/photograph_name.h"
 #include "scene/polygon_model.h"
 
 #include <filesystem>

@@ -17,7 +17,8 @@ set(may_include_cli scene calibrate register invrender viewer datasets-synthetic
 set(rooms scene calibrate register invrender viewer datasets-synthetic cli)
 
 # The floors of a room, lowest first: a file includes its own floor and those before it; files that
-# stand in the room itself are above them all.
+# stand in the room itself are above them all, but in scene, whose vocabulary all its formats speak.
+set(floors_scene . formats advice)
 set(floors_register camera edges search refine joint verdict)
 set(floors_invrender inputs charts photos measure colour select compose plan tiles1988)
 
@@ -27,7 +28,10 @@ function(floor_of out room path)
   if(NOT DEFINED floors_${room})
     return()
   endif()
-  list(LENGTH floors_${room} floor)
+  list(FIND floors_${room} . floor)
+  if(floor EQUAL -1)
+    list(LENGTH floors_${room} floor)
+  endif()
   if(path MATCHES "^${room}/([^/]+)/")
     list(FIND floors_${room} ${CMAKE_MATCH_1} floor)
   endif()
@@ -66,7 +70,7 @@ set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI
     nlohmann openssl tbb stb sys)
 set(owners_Eigen "\\.(h|cc)$")
 set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|datasets-synthetic)/.*\\.cc$")
-set(owners_OpenImageIO "^(scene/(image_(io|write|kind)|open_image|ignore_mask)|invrender/.*)\\.cc$")
+set(owners_OpenImageIO "^(scene/formats/(image_(io|write|kind)|open_image|ignore_mask)|invrender/.*)\\.cc$")
 set(owners_embree3 "^scene/visibility\\.cc$")
 set(owners_ceres "^(calibrate|register|invrender)/.*\\.cc$")
 set(owners_apriltag "^calibrate/.*\\.cc$")
@@ -74,18 +78,18 @@ set(owners_GL "^viewer/.*\\.cc$")
 set(owners_EGL "^viewer/.*\\.cc$")
 set(owners_CLI "^cli/.*\\.(h|cc)$")
 set(owners_nlohmann "(\\.cc|^cli/.*\\.h)$")
-set(owners_openssl "^scene/output_folder\\.cc$")
+set(owners_openssl "^scene/formats/output_folder\\.cc$")
 set(owners_tbb "\\.cc$")
 set(owners_stb "\\.cc$")
 set(owners_sys "\\.cc$")
 # The same for headers without a folder; any other such header is C++'s or the system's.
 set(bare_third_parties tiny_gltf.h stb_image.h stb_image_write.h jpeglib.h jerror.h utf8proc.h
     lcms2.h)
-set(owners_tiny_gltf.h "^scene/(gltf_read|gltf_write|own_tiny_gltf|.*_io)\\.cc$")
-set(owners_jpeglib.h "^scene/jpeg_file\\.cc$")
-set(owners_jerror.h "^scene/jpeg_file\\.cc$")
-set(owners_utf8proc.h "^scene/text_encoding\\.cc$")
-set(owners_lcms2.h "^scene/colour_profile\\.cc$")
+set(owners_tiny_gltf.h "^scene/formats/(gltf_read|gltf_write|own_tiny_gltf|.*_io)\\.cc$")
+set(owners_jpeglib.h "^scene/formats/jpeg_file\\.cc$")
+set(owners_jerror.h "^scene/formats/jpeg_file\\.cc$")
+set(owners_utf8proc.h "^scene/formats/text_encoding\\.cc$")
+set(owners_lcms2.h "^scene/formats/colour_profile\\.cc$")
 set(owners_stb_image.h "^NOBODY$")        # OpenImageIO reads and writes images
 set(owners_stb_image_write.h "^NOBODY$")
 

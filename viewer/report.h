@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/scene_folder.h"
+#include "scene/formats/scene_folder.h"
 
 #include <filesystem>
 #include <string>
@@ -25,7 +25,7 @@ struct ReportOptions {
 // measured and with the corrected edges side by side; without it, as overlays/ has it. Error if the
 // folder holds neither registration.json nor coverage.json.
 std::string MakeReport(const std::filesystem::path& out_folder,
-                         const Scene* scene = nullptr,
-                         const ReportOptions& options = {});
+                       const Scene* scene = nullptr,
+                       const ReportOptions& options = {});
 
 }  // namespace groundglass

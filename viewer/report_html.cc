@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "viewer/report_html.h"
 
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/reduce.h"
 
 #include <algorithm>

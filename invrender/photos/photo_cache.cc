@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "invrender/photos/photo_cache.h"
 
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 
 #include <tbb/task_arena.h>
 

@@ -3,7 +3,7 @@
 #include "invrender/photos/photo_pyramid.h"
 
 #include "scene/cubic_weights.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/srgb.h"
 
 #include <tbb/parallel_for.h>

@@ -5,8 +5,8 @@
 #include "invrender/photos/border_distance.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
-#include "scene/ignore_mask.h"
-#include "scene/image_io.h"
+#include "scene/formats/ignore_mask.h"
+#include "scene/formats/image_io.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "invrender/tiles1988/tiles.h"
-#include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
-#include "scene/image_io.h"
-#include "scene/osu_io.h"
-#include "scene/view_io.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/osu_io.h"
+#include "scene/formats/view_io.h"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "invrender/inputs/bake_options.h"
-#include "scene/tile_file.h"
+#include "scene/formats/tile_file.h"
 
 #include <filesystem>
 #include <span>

@@ -4,7 +4,7 @@
 #include "datasets-synthetic/trials.h"
 #include "datasets-synthetic/truth.h"
 #include "register/register.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/scene_folder.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -5,8 +5,8 @@
 #include "datasets-synthetic/evaluate.h"
 #include "invrender/bake.h"
 #include "invrender/bake_output.h"
-#include "scene/image_io.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/scene_folder.h"
 #include "viewer/renderer.h"
 
 #include <cstdio>

@@ -7,8 +7,8 @@
 #include "invrender/bake.h"
 #include "invrender/bake_output.h"
 #include "invrender/photos/face_mask.h"
-#include "scene/image_io.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/scene_folder.h"
 #include "viewer/renderer.h"
 
 #include <algorithm>

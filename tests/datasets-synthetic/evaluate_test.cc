@@ -3,8 +3,8 @@
 #include "datasets-synthetic/evaluate.h"
 
 #include "scene/error.h"
-#include "scene/osu_io.h"
-#include "scene/textured_model_io.h"
+#include "scene/formats/osu_io.h"
+#include "scene/formats/textured_model_io.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>

@@ -5,9 +5,9 @@
 #include "datasets-synthetic/evaluate.h"
 #include "datasets-synthetic/surface_truth.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/scene_folder.h"
-#include "scene/view_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/scene_folder.h"
+#include "scene/formats/view_io.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>

@@ -4,7 +4,7 @@
 
 #include "datasets-synthetic/surface_truth.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/srgb.h"
 #include "tests/support/temporary_folder.h"
 

@@ -5,9 +5,9 @@
 #include "invrender/photos/face_mask.h"
 #include "invrender/photos/photo_pyramid.h"
 #include "invrender/photos/visibility_map.h"
-#include "scene/colmap_io.h"
-#include "scene/image_io.h"
-#include "scene/osu_io.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/osu_io.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
 

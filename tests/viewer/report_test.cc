@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #include "viewer/report.h"
 
-#include "scene/atomic_file.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/registration_io.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/registration_io.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/viewer/sample_models.h"
 #include "viewer/report_html.h"

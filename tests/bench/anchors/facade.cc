@@ -4,7 +4,7 @@
 
 #include "datasets-synthetic/synth.h"
 #include "datasets-synthetic/truth.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/scene_folder.h"
 #include "tests/support/temporary_folder.h"
 
 namespace groundglass {

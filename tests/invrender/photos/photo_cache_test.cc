@@ -3,7 +3,7 @@
 #include "invrender/photos/photo_cache.h"
 
 #include "scene/error.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 

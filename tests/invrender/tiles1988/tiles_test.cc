@@ -3,7 +3,7 @@
 #include "invrender/tiles1988/tiles.h"
 
 #include "scene/error.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/srgb.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
