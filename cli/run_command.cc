@@ -11,10 +11,11 @@
 #include "cli/stage_keys.h"
 #include "cli/texture_stages.h"
 #include "cli/warnings_last.h"
+#include "report/report.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/registration_io.h"
-#include "viewer/report.h"
+#include "viewer/overlay.h"
 
 #include <array>
 #include <cstdio>
@@ -209,7 +210,8 @@ int Run(const RunArguments& arguments) {
   }
   attempts.Try("report", [&] {
     stages.Begin(kReportStage, keys.registration, {"report.html"});
-    WriteFileAtomically(out / "report.html", MakeReport(out, &scene));
+    WriteFileAtomically(out / "report.html",
+                        MakeReport(out, &scene, {.draw_edges = MakeEdgeDrawing(scene.model)}));
     stages.Finish(kReportStage);
   });
 

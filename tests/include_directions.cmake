@@ -12,9 +12,11 @@ set(may_include_calibrate scene)
 set(may_include_register scene)
 set(may_include_invrender scene)
 set(may_include_viewer scene)
-set(may_include_datasets-synthetic scene calibrate register invrender viewer)
-set(may_include_cli scene calibrate register invrender viewer datasets-synthetic)
-set(rooms scene calibrate register invrender viewer datasets-synthetic cli)
+set(may_include_report scene)
+set(may_include_datasets-synthetic scene)
+set(may_include_evaluate scene calibrate register invrender viewer datasets-synthetic)
+set(may_include_cli scene calibrate register invrender viewer report datasets-synthetic evaluate)
+set(rooms scene calibrate register invrender viewer report datasets-synthetic evaluate cli)
 
 # The floors of a room, lowest first: a file includes its own floor and those before it; files that
 # stand in the room itself are above them all, but in scene, whose vocabulary all its formats speak.
@@ -69,7 +71,7 @@ endforeach()
 set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI
     nlohmann openssl tbb stb sys)
 set(owners_Eigen "\\.(h|cc)$")
-set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|datasets-synthetic)/.*\\.cc$")
+set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|report|datasets-synthetic|evaluate)/.*\\.cc$")
 set(owners_OpenImageIO "^(scene/formats/(image_(io|write|kind)|open_image|ignore_mask)|invrender/.*)\\.cc$")
 set(owners_embree3 "^scene/visibility\\.cc$")
 set(owners_ceres "^(calibrate|register|invrender)/.*\\.cc$")

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 // What each part of inverse rendering is worth: the novel views of a scene with known truth, drawn
 // from textures that were baked with all parts, and with one of them left out.
-#include "datasets-synthetic/evaluate.h"
+#include "evaluate/evaluate.h"
 #include "invrender/bake.h"
 #include "invrender/bake_output.h"
 #include "scene/formats/image_io.h"

@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #include "datasets-synthetic/synth.h"
 
-#include "datasets-synthetic/evaluate.h"
 #include "datasets-synthetic/surface_truth.h"
+#include "evaluate/evaluate.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/scene_folder.h"

@@ -3,7 +3,7 @@
 #include "tests/bench/anchors/facade.h"
 
 #include "datasets-synthetic/synth.h"
-#include "datasets-synthetic/truth.h"
+#include "evaluate/truth.h"
 #include "scene/formats/scene_folder.h"
 #include "tests/support/temporary_folder.h"
 
