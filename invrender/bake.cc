@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "invrender/bake.h"
 
+#include "invrender/bake_coverage.h"
 #include "invrender/charts/charts.h"
 #include "invrender/charts/packing.h"
 #include "invrender/colour/colour.h"
@@ -16,8 +17,8 @@
 #include "invrender/photos/earlier_model.h"
 #include "invrender/photos/prepared_photo.h"
 #include "invrender/plan/memory_plan.h"
-#include "invrender/plan/suggest_viewpoint.h"
 #include "invrender/select/choose.h"
+#include "invrender/select/seams.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/formats/scene_folder.h"
@@ -32,6 +33,7 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -110,111 +112,6 @@ std::vector<std::filesystem::path> ImageFiles(const std::vector<BakePhotograph>&
   return files;
 }
 
-std::vector<PreparedPhoto> PreparePhotos(const PolygonModel& model,
-                                         const std::vector<BakePhotograph>& photographs,
-                                         const Visibility& visibility,
-                                         const EarlierModel* earlier,
-                                         const std::vector<int>& chart_of_face,
-                                         const BakeOptions& options,
-                                         const MaskDetail& detail,
-                                         int num_at_once,
-                                         PhotoCache& cache,
-                                         Steps* steps) {
-  std::vector<std::optional<PreparedPhoto>> prepared(photographs.size());
-  ForEach(static_cast<int>(photographs.size()), num_at_once, [&](int i) {
-    prepared[i].emplace(
-        photographs[i], i, model, visibility, earlier, chart_of_face, options, detail, cache);
-    if (steps) steps->Tell("read " + photographs[i].name);
-  });
-  std::vector<PreparedPhoto> photos;
-  for (std::optional<PreparedPhoto>& photo : prepared) photos.push_back(std::move(*photo));
-  return photos;
-}
-
-// How many texels of each face have their centre in it (or, for slivers, touch it), and how many
-// of those are covered.
-void CountTexels(const Chart& chart,
-                 const ChartTexels& texels,
-                 const ChartPixels& pixels,
-                 Coverage& coverage) {
-  for (int y = 0; y < texels.height(); ++y) {
-    for (int x = 0; x < texels.width(); ++x) {
-      if (texels.FaceAt(x, y) < 0 || !texels.IsCentreInside(x, y)) continue;
-      FaceCoverage& face = coverage.faces[texels.FaceAt(x, y)];
-      ++face.num_texels;
-      const uint16_t source = *pixels.provenance.At(x, y);
-      if (source != kProvenanceNone && source != kProvenanceFilled) {
-        ++face.num_covered_texels;
-        continue;
-      }
-      // A sum for now.
-      if (!face.missing) face.missing.emplace();
-      face.missing->centre_in_world += chart.PointInWorld({x + 0.5, y + 0.5});
-    }
-  }
-}
-
-void AddSources(const std::vector<BakePhotograph>& photographs,
-                ChartPixels& pixels,
-                Coverage& coverage) {
-  for (FaceSource& source : pixels.sources) {
-    FaceCoverage::Source& entry = coverage.faces[source.face].sources.emplace_back();
-    entry.photograph = photographs[source.photo].name;
-    entry.num_texels = source.num_texels;
-    std::vector<float>& footprints = source.footprints;
-    if (!footprints.empty()) {
-      std::nth_element(
-          footprints.begin(), footprints.begin() + footprints.size() / 2, footprints.end());
-      entry.footprint = footprints[footprints.size() / 2];
-    }
-  }
-}
-
-Coverage StartCoverage(const PolygonModel& model,
-                       const std::vector<Chart>& charts,
-                       const std::vector<int>& chart_of_face) {
-  Coverage coverage;
-  for (size_t i = 0; i < model.faces.size(); ++i) {
-    FaceCoverage& face = coverage.faces.emplace_back();
-    face.face = static_cast<int>(i);
-    face.number = FaceNumber(model, face.face);
-    face.name = model.faces[i].name;
-    face.area = ComputeFaceArea(model, face.face);
-    face.texel_size = charts[chart_of_face[i]].texel_size;
-  }
-  return coverage;
-}
-
-void FinishCoverage(const PolygonModel& model, const Visibility& visibility, Coverage& coverage) {
-  constexpr double kWorthTelling = 0.01;  // of a face's area
-  for (FaceCoverage& face : coverage.faces) {
-    if (face.num_texels > 0) {
-      face.covered_area = face.area * static_cast<double>(face.num_covered_texels) /
-                          static_cast<double>(face.num_texels);
-    }
-    if (face.area - face.covered_area <= kWorthTelling * face.area) {
-      face.missing.reset();
-    } else {
-      const long num_missing = face.num_texels - face.num_covered_texels;
-      if (face.missing && num_missing > 0) {
-        face.missing->centre_in_world /= static_cast<double>(num_missing);
-      } else {
-        const std::vector<int>& points = model.faces[face.face].points;
-        face.missing.emplace();
-        for (const int point : points) {
-          face.missing->centre_in_world +=
-              model.points_in_world[point] / static_cast<double>(points.size());
-        }
-      }
-      face.missing->stand_in_world =
-          SuggestViewpoint(model, visibility, face.face, face.missing->centre_in_world);
-    }
-    std::stable_sort(face.sources.begin(), face.sources.end(), [](const auto& a, const auto& b) {
-      return a.num_texels > b.num_texels;
-    });
-  }
-}
-
 TexturedModel MakeTexturedModel(const PolygonModel& model,
                                 const std::vector<Chart>& charts,
                                 const std::vector<int>& chart_of_face,
@@ -241,6 +138,173 @@ TexturedModel MakeTexturedModel(const PolygonModel& model,
   return textured;
 }
 
+std::vector<BakePhotograph> SortedByName(std::span<const BakePhotograph> photographs) {
+  std::vector<BakePhotograph> sorted(photographs.begin(), photographs.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    return NaturalLess(a.name, b.name);
+  });
+  return sorted;
+}
+
+constexpr size_t kNoLimit = std::numeric_limits<size_t>::max();
+
+// A bake on the way: its steps in their order.
+class Bake {
+ public:
+  // photographs: in name order, which provenance counts in.
+  Bake(const PolygonModel& model,
+       std::vector<BakePhotograph> photographs,
+       const BakeOptions& options,
+       const Progress& progress)
+      : model_(model),
+        options_(options),
+        photographs_(std::move(photographs)),
+        visibility_(model),
+        charts_(MakeCharts(model)),
+        chart_of_face_(ChartOfFace(charts_, model.faces.size())),
+        cache_(ImageFiles(photographs_), IsLimited() ? 0 : kNoLimit, options.bits),
+        steps_(progress, static_cast<int>(photographs_.size() + 1 + charts_.size())) {
+    if (!options.as_photographed) return;
+    earlier_.emplace(*options.as_photographed, model);
+    result_.new_faces = earlier_->FindNewFaces();
+    KeepFrom(result_.new_faces, model.faces.size(), photographs_);
+  }
+
+  // How much memory may go where, photographs made ready, and texels as small as they allow.
+  void PreparePhotographs() {
+    plan_.num_at_once = static_cast<int>(photographs_.size());
+    plan_.chart_bytes = kNoLimit;
+    if (IsLimited()) MakePlan();
+    photos_ = Prepare({.num_halvings = plan_.mask_halvings}, &steps_);
+    ChooseTexelSizes(model_, photos_, options_, charts_);
+    if (IsLimited()) KeepToPlan();
+  }
+
+  // Each chart's place on the pages.
+  void LayOut() {
+    page_sizes_ = PackCharts(charts_, options_.gutter_texels, options_.max_page_texels);
+  }
+
+  // Settles colour on blocks, and measures what photographs differ in.
+  void ComparePhotographs() {
+    blocks_ = ObserveBlocks(model_, charts_, photos_, options_.blocks);
+    if (options_.judge_sharpness || options_.smooth_grain) MeasureDetail();
+    steps_.Tell("compared the photographs");
+    neutral_ = MakeNeutralColour(blocks_, photos_.size());
+    // Occluders are told from exposure even where the pages keep the photographs' own exposures.
+    matched_ = options_.match_colour || options_.reject_occluders
+                   ? EstimateColour(blocks_, photos_.size(), options_.colour)
+                   : neutral_;
+  }
+
+  void FillPages() {
+    result_.model = MakeTexturedModel(model_, charts_, chart_of_face_, page_sizes_, options_.bits);
+    result_.coverage = StartCoverage(model_, charts_, chart_of_face_);
+    ForEachChart(charts_, blocks_, options_, plan_.chart_bytes, [&](int i) {
+      if (charts_[i].page >= 0) TextureChart(i);
+      steps_.Tell("textured chart " + std::to_string(i + 1));
+    });
+  }
+
+  BakeResult Finish() {
+    FinishCoverage(model_, visibility_, result_.coverage);
+    return std::move(result_);
+  }
+
+ private:
+  bool IsLimited() const { return options_.max_memory_mb > 0; }
+
+  std::vector<PreparedPhoto> Prepare(const MaskDetail& detail, Steps* steps) {
+    const PhotoSurroundings surroundings = {
+        model_, visibility_, earlier_ ? &*earlier_ : nullptr, chart_of_face_, options_, cache_};
+    std::vector<std::optional<PreparedPhoto>> prepared(photographs_.size());
+    ForEach(static_cast<int>(photographs_.size()), plan_.num_at_once, [&](int i) {
+      prepared[i].emplace(PreparePhoto(photographs_[i], i, surroundings, detail));
+      if (steps) steps->Tell("read " + photographs_[i].name);
+    });
+    std::vector<PreparedPhoto> photos;
+    for (std::optional<PreparedPhoto>& photo : prepared) photos.push_back(std::move(*photo));
+    return photos;
+  }
+
+  void MakePlan() {
+    const std::vector<PreparedPhoto> survey =
+        Prepare({.num_halvings = kSurveyHalvings, .is_survey = true}, nullptr);
+    ChooseTexelSizes(model_, survey, options_, charts_);
+    plan_ = PlanMemory(charts_, survey, options_);
+    cache_.SetMaxBytes(plan_.photo_bytes);
+    cache_.SetNumDropped(plan_.num_dropped);
+  }
+
+  void KeepToPlan() {
+    plan_ = RevisePlan(plan_, charts_, photos_, options_);
+    result_.texel_scale = plan_.texel_scale;
+    for (Chart& chart : charts_) {
+      if (chart.texel_size > 0) chart.SetTexelSize(chart.texel_size * plan_.texel_scale);
+    }
+    cache_.SetMaxBytes(plan_.photo_bytes);
+  }
+
+  void MeasureDetail() {
+    const std::vector<Patch> patches = SamplePatches(model_, charts_, photos_);
+    if (options_.judge_sharpness) {
+      sharpness_ = MeasureSharpness(patches, photos_.size(), options_.sharpness);
+    }
+    if (options_.smooth_grain) {
+      grain_ = MeasureGrain(patches, charts_.size(), photos_.size(), options_.grain);
+    }
+  }
+
+  ChartChoice Choose(int i) const {
+    const ChartBlocks& blocks = blocks_[i];
+    std::vector<float> consistency =
+        options_.reject_occluders ? MeasureConsistency(blocks, i, matched_, options_.consistency)
+                                  : std::vector<float>(blocks.views.size(), 1);
+    if (!sharpness_.empty()) PreferSharp(blocks, sharpness_, options_.consistency, consistency);
+    ChartChoice choice = ChooseBlocks(blocks, std::move(consistency));
+    if (options_.smooth_seams) SmoothSeams(blocks, i, matched_, options_.seams, choice);
+    return choice;
+  }
+
+  // Faces and pages' rectangles of different charts do not overlap: no lock.
+  void TextureChart(int i) {
+    const Chart& chart = charts_[i];
+    const ChartTexels texels(model_, chart);
+    const ChartChoice choice = Choose(i);
+    const ColourModel& printed = options_.match_colour ? matched_ : neutral_;
+    ChartPixels pixels =
+        ComposeChart({chart, i, texels, photos_, blocks_[i], choice}, printed, options_);
+    if (options_.smooth_grain) {
+      SmoothGrain(chart, i, blocks_[i], printed, grain_, options_.grain, pixels);
+    }
+    InpaintBorders(pixels);
+    CloseHoles(options_.dilate, pixels);
+    CountTexels(chart, texels, pixels, result_.coverage);
+    AddSources(photographs_, pixels, result_.coverage);
+    if (options_.fill_gaps) FillOpenTexels(options_.fill, pixels);
+    PlaceOnPage(chart, pixels, options_.gutter_texels, result_.model.pages[chart.page]);
+  }
+
+  const PolygonModel& model_;
+  const BakeOptions& options_;
+  std::vector<BakePhotograph> photographs_;
+  Visibility visibility_;
+  std::optional<EarlierModel> earlier_;
+  std::vector<Chart> charts_;
+  std::vector<int> chart_of_face_;
+  PhotoCache cache_;
+  Steps steps_;
+  MemoryPlan plan_;
+  std::vector<PreparedPhoto> photos_;
+  std::vector<PageSize> page_sizes_;
+  std::vector<ChartBlocks> blocks_;
+  std::vector<Sharpness> sharpness_;  // empty: all alike
+  Grain grain_;
+  ColourModel neutral_;
+  ColourModel matched_;
+  BakeResult result_;
+};
+
 }  // namespace
 
 BakeResult BakeTextures(const PolygonModel& model,
@@ -254,105 +318,12 @@ BakeResult BakeTextures(const PolygonModel& model,
     throw Error("the model has " + std::to_string(model.faces.size()) +
                 " faces; no more than 65535 can be textured");
   }
-  // Name order, which provenance counts in.
-  std::vector<BakePhotograph> sorted(photographs.begin(), photographs.end());
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
-    return NaturalLess(a.name, b.name);
-  });
-
-  const Visibility visibility(model);
-  BakeResult result;
-  std::optional<EarlierModel> earlier;
-  if (options.as_photographed) {
-    earlier.emplace(*options.as_photographed, model);
-    result.new_faces = earlier->FindNewFaces();
-    KeepFrom(result.new_faces, model.faces.size(), sorted);
-  }
-  std::vector<Chart> charts = MakeCharts(model);
-  const std::vector<int> chart_of_face = ChartOfFace(charts, model.faces.size());
-  const int num_charts = static_cast<int>(charts.size());
-  Steps steps(progress, static_cast<int>(sorted.size()) + 1 + num_charts);
-  const bool is_limited = options.max_memory_mb > 0;
-  constexpr size_t kNoLimit = std::numeric_limits<size_t>::max();
-  PhotoCache cache(ImageFiles(sorted), is_limited ? 0 : kNoLimit, options.bits);
-  const auto prepare = [&](const MaskDetail& detail, int num_at_once, Steps* told) {
-    return PreparePhotos(model,
-                         sorted,
-                         visibility,
-                         earlier ? &*earlier : nullptr,
-                         chart_of_face,
-                         options,
-                         detail,
-                         num_at_once,
-                         cache,
-                         told);
-  };
-  const int num_photos = static_cast<int>(sorted.size());
-  MemoryPlan plan;
-  plan.num_at_once = num_photos;
-  plan.chart_bytes = kNoLimit;
-  if (is_limited) {
-    const std::vector<PreparedPhoto> survey =
-        prepare({.num_halvings = kSurveyHalvings, .is_survey = true}, num_photos, nullptr);
-    ChooseTexelSizes(model, survey, options, charts);
-    plan = PlanMemory(charts, survey, options);
-    cache.SetMaxBytes(plan.photo_bytes);
-    cache.SetNumDropped(plan.num_dropped);
-  }
-  const std::vector<PreparedPhoto> photos =
-      prepare({.num_halvings = plan.mask_halvings}, plan.num_at_once, &steps);
-  ChooseTexelSizes(model, photos, options, charts);
-  if (is_limited) {
-    plan = RevisePlan(plan, charts, photos, options);
-    result.texel_scale = plan.texel_scale;
-    for (Chart& chart : charts) {
-      if (chart.texel_size > 0) chart.SetTexelSize(chart.texel_size * plan.texel_scale);
-    }
-    cache.SetMaxBytes(plan.photo_bytes);
-  }
-  const std::vector<PageSize> page_sizes =
-      PackCharts(charts, options.gutter_texels, options.max_page_texels);
-
-  // Settle colour and choice on blocks.
-  const std::vector<ChartBlocks> blocks = ObserveBlocks(model, charts, photos);
-  std::vector<Sharpness> sharpness;
-  Grain grain;
-  if (options.judge_sharpness || options.smooth_grain) {
-    const std::vector<Patch> patches = SamplePatches(model, charts, photos);
-    if (options.judge_sharpness) sharpness = MeasureSharpness(patches, photos.size());
-    if (options.smooth_grain) grain = MeasureGrain(patches, charts.size(), photos.size());
-  }
-  steps.Tell("compared the photographs");
-  // Occluders are told from exposure even where the pages keep the photographs' own exposures.
-  const ColourModel neutral = MakeNeutralColour(blocks, photos.size());
-  const ColourModel matched = options.match_colour || options.reject_occluders
-                                  ? EstimateColour(blocks, photos.size())
-                                  : neutral;
-  const ColourModel& printed = options.match_colour ? matched : neutral;
-
-  // Fill the pages.
-  result.model = MakeTexturedModel(model, charts, chart_of_face, page_sizes, options.bits);
-  result.coverage = StartCoverage(model, charts, chart_of_face);
-  ForEachChart(charts, blocks, options, plan.chart_bytes, [&](int i) {
-    const Chart& chart = charts[i];
-    if (chart.page >= 0) {
-      const ChartTexels texels(model, chart);
-      const ChartChoice choice = ChooseBlocks(blocks[i], i, matched, sharpness, options);
-      ChartPixels pixels =
-          ComposeChart(chart, i, texels, photos, blocks[i], choice, printed, options);
-      if (options.smooth_grain) SmoothGrain(chart, i, blocks[i], printed, grain, pixels);
-      InpaintBorders(pixels);
-      CloseHoles(pixels);
-      // Faces and pages' rectangles of different charts do not overlap: no lock.
-      CountTexels(chart, texels, pixels, result.coverage);
-      AddSources(sorted, pixels, result.coverage);
-      if (options.fill_gaps) FillOpenTexels(pixels);
-      PlaceOnPage(chart, pixels, options.gutter_texels, result.model.pages[chart.page]);
-    }
-    steps.Tell("textured chart " + std::to_string(i + 1));
-  });
-  FinishCoverage(model, visibility, result.coverage);
-  return result;
+  Bake bake(model, SortedByName(photographs), options, progress);
+  bake.PreparePhotographs();
+  bake.LayOut();
+  bake.ComparePhotographs();
+  bake.FillPages();
+  return bake.Finish();
 }
 
 }  // namespace groundglass

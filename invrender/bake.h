@@ -18,19 +18,21 @@
 //   inputs/    BakePhotograph, BakeOptions
 //   charts/    MakeCharts        model                 -> faces in one plane that touch, each flat
 //              PackCharts        charts                -> pages and each chart's place on them
-//   photos/    PreparedPhoto     photograph, model     -> what it shows of which face, how near to
+//   photos/    PreparePhoto      photograph, model     -> what it shows of which face, how near to
 //                                                         a border; its pyramid of pixels
 //   measure/   ChooseTexelSizes  charts, photographs   -> a texel as fine as the best photograph
 //              ObserveBlocks     charts, photographs   -> colour of each block in each photograph
 //              SamplePatches     charts, photographs   -> fine detail, for sharpness and grain
 //   colour/    EstimateColour    blocks                -> gains, vignetting, light of each face
-//   select/    ChooseBlocks      blocks, colour        -> who shows each block (consensus, seams)
+//   select/    MeasureConsistency blocks, colour       -> who agrees with the consensus
+//              ChooseBlocks      blocks, consistency   -> who shows each block
+//              SmoothSeams       choice                -> the same, with seams that show less
 //   compose/   ComposeChart      choice, photographs   -> texels, blended along seams
 //              SmoothGrain, InpaintBorders, CloseHoles, FillOpenTexels, PlaceOnPage
 //   plan/      PlanMemory        charts, photographs   -> how much at once; where to stand for more
 //   tiles1988/ MakeTiles         photographs           -> Thorman's tiles, for comparison
 //
-// BakeTextures calls them.
+// BakeTextures calls them. The thresholds and weights of each are in a struct of BakeOptions.
 namespace groundglass {
 
 struct BakeResult {

@@ -10,8 +10,6 @@
 namespace groundglass {
 namespace {
 
-constexpr double kEvenLight = 0.06;  // log units: what counts as no difference of light
-
 // The smallest value with half of the weight at or below it.
 float WeightedMedian(std::vector<std::pair<float, float>>& value_and_weight) {
   std::sort(value_and_weight.begin(), value_and_weight.end());
@@ -61,17 +59,14 @@ struct Pair {
   }
 };
 
-// Below this many shared blocks a pair says nothing.
-constexpr int kFewestShared = 6;
-constexpr int kEnoughForPairs = 20000;  // blocks of a chart
-
 // Calls work(block, k of the photographs that show it well) for the blocks of a chart that pairs
 // are sought in.
 template <typename Work>
-void ForEachUsable(const ChartBlocks& chart, const Work& work) {
-  if (chart.NumCells() < kFewestShared) return;
+void ForEachUsable(const ChartBlocks& chart, const ColourOptions& options, const Work& work) {
+  if (chart.NumCells() < options.fewest_shared) return;
   std::vector<size_t> usable;
-  for (int block = 0; block < chart.NumCells(); block += StepThrough(chart, kEnoughForPairs)) {
+  for (int block = 0; block < chart.NumCells();
+       block += StepThrough(chart, options.enough_for_pairs)) {
     const CellView* views = chart.ViewsOf(block);
     usable.clear();
     for (size_t k = 0; k < chart.photos.size(); ++k) {
@@ -81,27 +76,24 @@ void ForEachUsable(const ChartBlocks& chart, const Work& work) {
   }
 }
 
-std::vector<Pair> FindPairs(const std::vector<ChartBlocks>& blocks) {
-  constexpr size_t kEnough = 600;
-  // Hundreds of photographs of the same walls have more pairs than memory holds, and than settle
-  // the gains: then every so manieth.
-  constexpr size_t kMostShared = 12000000;
+std::vector<Pair> FindPairs(const std::vector<ChartBlocks>& blocks, const ColourOptions& options) {
+  // Of too many pairs every so manieth.
   size_t num_shared = 0;
   for (const ChartBlocks& chart : blocks) {
-    ForEachUsable(chart, [&](int, const std::vector<size_t>& usable) {
+    ForEachUsable(chart, options, [&](int, const std::vector<size_t>& usable) {
       num_shared += usable.size() * (usable.size() - 1) / 2;
     });
   }
-  const size_t stride = 1 + num_shared / kMostShared;
+  const size_t stride = 1 + num_shared / static_cast<size_t>(options.most_shared);
   std::vector<Pair> pairs;
   for (const ChartBlocks& chart : blocks) {
-    if (chart.NumCells() < kFewestShared) continue;
+    if (chart.NumCells() < options.fewest_shared) continue;
     const size_t num_photos = chart.photos.size();
     const auto is_wanted = [&](size_t a, size_t b) {
       return b == a + 1 || (a * 7919 + b * 104729) % stride == 0;
     };
     std::vector<std::vector<uint32_t>> shared(num_photos * num_photos);  // blocks
-    ForEachUsable(chart, [&](int block, const std::vector<size_t>& usable) {
+    ForEachUsable(chart, options, [&](int block, const std::vector<size_t>& usable) {
       for (size_t i = 0; i < usable.size(); ++i) {
         for (size_t j = i + 1; j < usable.size(); ++j) {
           if (!is_wanted(usable[i], usable[j])) continue;
@@ -112,14 +104,14 @@ std::vector<Pair> FindPairs(const std::vector<ChartBlocks>& blocks) {
     for (size_t a = 0; a < num_photos; ++a) {
       for (size_t b = a + 1; b < num_photos; ++b) {
         std::vector<uint32_t>& both = shared[a * num_photos + b];
-        if (both.size() < kFewestShared) continue;
+        if (static_cast<int>(both.size()) < options.fewest_shared) continue;
         Pair& pair = pairs.emplace_back();
         pair.chart = &chart;
         pair.first_k = static_cast<uint32_t>(a);
         pair.second_k = static_cast<uint32_t>(b);
         pair.first = chart.photos[a];
         pair.second = chart.photos[b];
-        const size_t count = std::min(both.size(), kEnough);
+        const size_t count = std::min(both.size(), static_cast<size_t>(options.enough_of_pair));
         pair.blocks.reserve(count);
         for (size_t i = 0; i < count; ++i) pair.blocks.push_back(both[i * both.size() / count]);
       }
@@ -132,11 +124,11 @@ std::vector<Pair> FindPairs(const std::vector<ChartBlocks>& blocks) {
 // the chart as a whole matters.
 void SolveVignetting(const std::vector<Pair>& pairs,
                      int channel,
+                     const ColourOptions& options,
                      std::vector<ColourModel::Photo>& photos) {
-  constexpr double kScale = 0.15;  // log units: what grain and small occluders do
   const Eigen::Index num_photos = static_cast<Eigen::Index>(photos.size());
   Eigen::VectorXd solution = Eigen::VectorXd::Zero(num_photos);
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < options.vignetting_rounds; ++round) {
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(num_photos, num_photos);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(num_photos);
     std::vector<float> residuals;
@@ -160,7 +152,7 @@ void SolveVignetting(const std::vector<Pair>& pairs,
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
       Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
       for (size_t i = 0; i < pair.blocks.size(); ++i) {
-        const double e = (residuals[i] - middle) / kScale;
+        const double e = (residuals[i] - middle) / options.vignetting_scale;
         const double weight = 1 / ((1 + e * e) * (1 + e * e));
         const auto [first, second] = pair.Views(i);
         const Eigen::Vector3d row(first->radius_squared, -second->radius_squared, value(i));
@@ -177,7 +169,7 @@ void SolveVignetting(const std::vector<Pair>& pairs,
       }
     }
     // Lenses darken corners by some tenths; photographs of one set do so alike.
-    const double prior = 20;
+    const double prior = options.vignetting_prior;
     const double common = num_photos > 0 ? solution.mean() : 0;
     for (Eigen::Index photo = 0; photo < num_photos; ++photo) {
       normal(photo, photo) += prior;
@@ -192,8 +184,10 @@ void SolveVignetting(const std::vector<Pair>& pairs,
 
 // One gain for each photograph. A chart gives one difference for each pair that shows it, however
 // large it is: sun makes whole walls brighter. Differences on which the charts agree win.
-void SolveGains(std::vector<Pair>& pairs, int channel, std::vector<ColourModel::Photo>& photos) {
-  constexpr double kManyCells = 50;
+void SolveGains(std::vector<Pair>& pairs,
+                int channel,
+                const ColourOptions& options,
+                std::vector<ColourModel::Photo>& photos) {
   const Eigen::Index num_photos = static_cast<Eigen::Index>(photos.size());
   std::vector<float> differences;
   for (Pair& pair : pairs) {
@@ -207,14 +201,14 @@ void SolveGains(std::vector<Pair>& pairs, int channel, std::vector<ColourModel::
     pair.difference[channel] = Median(differences);
   }
   Eigen::VectorXd solution = Eigen::VectorXd::Zero(num_photos);
-  for (const double scale : {2.0, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.13, 0.1, 0.1, 0.1}) {
+  for (const double scale : options.gain_scales) {
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(num_photos, num_photos);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(num_photos);
     for (const Pair& pair : pairs) {
       const double value = pair.difference[channel];
       const double e = (value - solution[pair.first] + solution[pair.second]) / scale;
       const double count = static_cast<double>(pair.blocks.size());
-      const double weight = count / (count + kManyCells) / (1 + e * e);
+      const double weight = count / (count + options.many_blocks) / (1 + e * e);
       normal(pair.first, pair.first) += weight;
       normal(pair.second, pair.second) += weight;
       normal(pair.first, pair.second) -= weight;
@@ -223,7 +217,8 @@ void SolveGains(std::vector<Pair>& pairs, int channel, std::vector<ColourModel::
       right[pair.second] -= weight * value;
     }
     // A weak prior anchors the mean, and photographs that share nothing.
-    for (Eigen::Index photo = 0; photo < num_photos; ++photo) normal(photo, photo) += 1e-3;
+    for (Eigen::Index photo = 0; photo < num_photos; ++photo)
+      normal(photo, photo) += options.gain_prior;
     solution = normal.ldlt().solve(right);
   }
   for (Eigen::Index photo = 0; photo < num_photos; ++photo) {
@@ -232,15 +227,15 @@ void SolveGains(std::vector<Pair>& pairs, int channel, std::vector<ColourModel::
 }
 
 // One round of face gains around the blocks' weighted medians.
-void SolveFaceGains(const std::vector<ChartBlocks>& blocks, ColourModel& colour) {
-  constexpr double kFewCells = 12;    // below this many, a chart's gain is pulled to none
-  constexpr int kEnoughCells = 3000;  // medians need no more
+void SolveFaceGains(const std::vector<ChartBlocks>& blocks,
+                    const ColourOptions& options,
+                    ColourModel& colour) {
   tbb::parallel_for(size_t{0}, blocks.size(), [&](size_t chart) {
     const ChartBlocks& grid = blocks[chart];
     std::vector<Eigen::Array3f> shift(grid.photos.size(), Eigen::Array3f::Zero());
     std::vector<std::pair<float, float>> sorted;
     std::vector<double> count(grid.photos.size(), 0);
-    const int step = StepThrough(grid, kEnoughCells);
+    const int step = StepThrough(grid, options.enough_for_light);
     for (int channel = 0; channel < 3; ++channel) {
       std::vector<std::vector<float>> residuals(grid.photos.size());
       for (int block = 0; block < grid.NumCells(); block += step) {
@@ -250,7 +245,8 @@ void SolveFaceGains(const std::vector<ChartBlocks>& blocks, ColourModel& colour)
           if (!views[k].is_usable) continue;
           const int photo = grid.photos[k];
           const double nonuniformity = colour.photos[photo].nonuniformity;
-          const double weight = 1 / (kEvenLight * kEvenLight + nonuniformity * nonuniformity);
+          const double weight =
+              1 / (options.even_light * options.even_light + nonuniformity * nonuniformity);
           sorted.emplace_back(
               colour.Corrected(
                   photo, static_cast<int>(chart), static_cast<int>(k), views[k])[channel],
@@ -268,19 +264,25 @@ void SolveFaceGains(const std::vector<ChartBlocks>& blocks, ColourModel& colour)
       for (size_t k = 0; k < grid.photos.size(); ++k) {
         count[k] = static_cast<double>(residuals[k].size());
         if (residuals[k].empty()) continue;
-        shift[k][channel] =
-            LowerMedian(residuals[k]) * static_cast<float>(count[k] / (count[k] + kFewCells));
+        shift[k][channel] = LowerMedian(residuals[k]) *
+                            static_cast<float>(count[k] / (count[k] + options.few_blocks));
       }
     }
     for (size_t k = 0; k < grid.photos.size(); ++k) colour.face_gains[chart][k] += shift[k];
   });
-  // How uneven each photograph's light is.
+}
+
+// How uneven each photograph's light is.
+void JudgeUnevenness(const std::vector<ChartBlocks>& blocks,
+                     const ColourOptions& options,
+                     ColourModel& colour) {
   std::vector<double> squares(colour.photos.size(), 0);
   std::vector<double> weights(colour.photos.size(), 1e-9);
   for (size_t chart = 0; chart < blocks.size(); ++chart) {
     const double weight = std::sqrt(static_cast<double>(blocks[chart].NumCells()));
     for (size_t k = 0; k < blocks[chart].photos.size(); ++k) {
-      const double gain = std::min(1.0, std::abs<double>(colour.face_gains[chart][k].mean()));
+      const double gain =
+          std::min(options.most_uneven, std::abs<double>(colour.face_gains[chart][k].mean()));
       squares[blocks[chart].photos[k]] += weight * gain * gain;
       weights[blocks[chart].photos[k]] += weight;
     }
@@ -291,13 +293,13 @@ void SolveFaceGains(const std::vector<ChartBlocks>& blocks, ColourModel& colour)
 }
 
 // The picture as a whole keeps the mean exposure of the photographs whose light is even.
-void AnchorOnMean(ColourModel& colour) {
+void AnchorOnMean(const ColourOptions& options, ColourModel& colour) {
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   float sum_weight = 0;
   for (const ColourModel::Photo& photo : colour.photos) {
     const double nonuniformity = photo.nonuniformity;
-    const auto weight =
-        static_cast<float>(1 / (kEvenLight * kEvenLight + nonuniformity * nonuniformity));
+    const auto weight = static_cast<float>(
+        1 / (options.even_light * options.even_light + nonuniformity * nonuniformity));
     // Vignetting darkens the outer parts only: what counts is the frame's middle.
     sum += weight * photo.log_gain;
     sum_weight += weight;
@@ -316,16 +318,21 @@ ColourModel MakeNeutralColour(const std::vector<ChartBlocks>& blocks, size_t num
   return colour;
 }
 
-ColourModel EstimateColour(const std::vector<ChartBlocks>& blocks, size_t num_photos) {
+ColourModel EstimateColour(const std::vector<ChartBlocks>& blocks,
+                           size_t num_photos,
+                           const ColourOptions& options) {
   ColourModel colour = MakeNeutralColour(blocks, num_photos);
-  std::vector<Pair> pairs = FindPairs(blocks);
+  std::vector<Pair> pairs = FindPairs(blocks, options);
   if (pairs.empty()) return colour;
   tbb::parallel_for(0, 3, [&](int channel) {
-    SolveVignetting(pairs, channel, colour.photos);
-    SolveGains(pairs, channel, colour.photos);
+    SolveVignetting(pairs, channel, options, colour.photos);
+    SolveGains(pairs, channel, options, colour.photos);
   });
-  for (int round = 0; round < 3; ++round) SolveFaceGains(blocks, colour);
-  AnchorOnMean(colour);
+  for (int round = 0; round < options.light_rounds; ++round) {
+    SolveFaceGains(blocks, options, colour);
+    JudgeUnevenness(blocks, options, colour);
+  }
+  AnchorOnMean(options, colour);
   return colour;
 }
 

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "invrender/inputs/colour_options.h"
 #include "invrender/measure/texel_blocks.h"
 
 #include <Eigen/Dense>
@@ -46,6 +47,8 @@ ColourModel MakeNeutralColour(const std::vector<ChartBlocks>& blocks, size_t num
 // gains is the anchor, as Brown and Lowe do (IJCV 2007, section 6). Then a gain for each
 // photograph and chart around the blocks' weighted medians, where photographs whose light is even
 // weigh more.
-ColourModel EstimateColour(const std::vector<ChartBlocks>& blocks, size_t num_photos);
+ColourModel EstimateColour(const std::vector<ChartBlocks>& blocks,
+                           size_t num_photos,
+                           const ColourOptions& options);
 
 }  // namespace groundglass

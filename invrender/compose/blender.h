@@ -2,11 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/charts/charts.h"
-#include "invrender/inputs/bake_options.h"
-#include "invrender/measure/texel_blocks.h"
-#include "invrender/photos/prepared_photo.h"
-#include "invrender/select/choose.h"
+#include "invrender/compose/compose_inputs.h"
+#include "invrender/inputs/blend_options.h"
 
 #include <Eigen/Dense>
 
@@ -59,25 +56,27 @@ struct CellBlend {
 // Decides which photographs a texel is mixed of, and finds their places.
 class Blender {
  public:
-  Blender(const Chart& chart,
-          int chart_index,
-          const ChartTexels& texels,
-          const std::vector<PreparedPhoto>& photos,
-          const ChartBlocks& blocks,
-          const ChartChoice& choice,
-          const BakeOptions& options)
-      : chart_(chart),
-        texels_(texels),
-        photos_(photos),
-        cells_(blocks),
-        choice_(choice),
-        options_(options) {
-    for (const int photo : blocks.photos) views_.push_back(photos[photo].View(chart, chart_index));
+  // border_margin_px and smooth_seams: those of BakeOptions.
+  Blender(const ComposeInputs& inputs,
+          const BlendOptions& options,
+          double border_margin_px,
+          bool smooth_seams)
+      : chart_(inputs.chart),
+        texels_(inputs.texels),
+        photos_(inputs.photos),
+        cells_(inputs.blocks),
+        choice_(inputs.choice),
+        options_(options),
+        border_margin_px_(border_margin_px),
+        smooth_seams_(smooth_seams) {
+    for (const int photo : cells_.photos) {
+      views_.push_back(photos_[photo].View(chart_, inputs.chart_index));
+    }
   }
 
   // The photograph (its k) that all blocks around a texel chose; -1 if they differ.
   int ChosenByAll(int x, int y) const {
-    const CellBlend blend(x, y, cells_, options_.smooth_seams);
+    const CellBlend blend(x, y, cells_, smooth_seams_);
     const int k = choice_.best[blend.blocks[0]];
     for (int corner = 1; corner < 4; ++corner) {
       if (choice_.best[blend.blocks[corner]] != k) return -1;
@@ -89,7 +88,7 @@ class Blender {
   bool SeesClear(int k, int x, int y, SurfaceObservation& sighting) const {
     const auto seen = photos_[cells_.photos[k]].Observe(
         views_[k], chart_.texel_size * texels_.PointAt(x, y), texels_.FaceAt(x, y));
-    if (!seen || seen->border_px < options_.border_margin_px + 1.5) return false;
+    if (!seen || seen->border_px < border_margin_px_ + options_.clear_px) return false;
     sighting = *seen;
     return true;
   }
@@ -130,7 +129,7 @@ class Blender {
     if (!SeesClear(k, x, y, first) || !SeesClear(k, last, y, run.back())) return 0;
     const double half_length = (run.back().image_px - first.image_px).norm() / 2;
     if (std::min(first.border_px, run.back().border_px) <
-        options_.border_margin_px + 1.5 + half_length) {
+        border_margin_px_ + options_.clear_px + half_length) {
       return 0;
     }
     for (int i = 1; i < kRunTexels - 1; ++i) {
@@ -148,7 +147,7 @@ class Blender {
     ingredients.clear();
     const Eigen::Vector2d plane_point = chart_.texel_size * texels_.PointAt(x, y);
     const int face = texels_.FaceAt(x, y);
-    const CellBlend blend(x, y, cells_, options_.smooth_seams);
+    const CellBlend blend(x, y, cells_, smooth_seams_);
     double chosen = 0;
     for (int corner = 0; corner < 4; ++corner) {
       const int k = choice_.best[blend.blocks[corner]];
@@ -158,12 +157,12 @@ class Blender {
       ingredient.weight += weight;
       chosen += weight;
     }
-    if (chosen < 0.5) AddOthers(plane_point, face, blend, chosen, ingredients);
-    if (ingredients.size() > 1 || chosen < 0.5) {
+    if (chosen < options_.enough_chosen) AddOthers(plane_point, face, blend, chosen, ingredients);
+    if (ingredients.size() > 1 || chosen < options_.enough_chosen) {
       double largest = 0;
       for (const Contribution& i : ingredients) largest = std::max(largest, i.weight);
       std::erase_if(ingredients, [&](const Contribution& i) {
-        return i.weight <= 0 || i.weight < 0.02 * largest;
+        return i.weight <= 0 || i.weight < options_.negligible * largest;
       });
     }
     double sum = 0;
@@ -173,17 +172,17 @@ class Blender {
 
   bool IsGood(const std::vector<Contribution>& ingredients) const {
     return std::any_of(ingredients.begin(), ingredients.end(), [&](const Contribution& i) {
-      return i.weight > 0.3 && i.sighting.border_px >= options_.border_margin_px;
+      return i.weight > options_.good_weight && i.sighting.border_px >= border_margin_px_;
     });
   }
 
   // How many texels lie between a border and the first clean pixel of this photograph.
   uint8_t ReachFromBorder(const SurfaceObservation& sighting) const {
-    constexpr double kFarthest = 32;
     const double det = std::abs(sighting.px_from_unit.determinant());
     const double long_side = det > 0 ? sighting.px_from_unit.norm() / det : 0;  // unit for one px
-    const double reach = 1 + (options_.border_margin_px + 1) * long_side / chart_.texel_size;
-    return static_cast<uint8_t>(std::min(kFarthest, std::ceil(reach)));
+    const double reach =
+        1 + (border_margin_px_ + options_.reach_beyond_px) * long_side / chart_.texel_size;
+    return static_cast<uint8_t>(std::min<double>(options_.farthest_reach, std::ceil(reach)));
   }
 
  private:
@@ -218,20 +217,23 @@ class Blender {
         consistency += blend.weights[corner] *
                        choice_.consistency[blend.blocks[corner] * cells_.photos.size() + k];
       }
-      quality[k] = photos_[cells_.photos[k]].Quality(ingredient.sighting) * (consistency + 1e-6);
+      quality[k] = photos_[cells_.photos[k]].Quality(ingredient.sighting) *
+                   (consistency + options_.least_consistency);
       best = std::max(best, quality[k]);
     }
     if (best <= 0) return;
     for (Contribution& ingredient : ingredients) {
       const double share = quality[ingredient.k] / best;
-      ingredient.weight += (0.5 - chosen) * 1e-2 * share * share * share * share;
+      ingredient.weight += (options_.enough_chosen - chosen) * options_.others_weight * share *
+                           share * share * share;
     }
   }
 
   double BorderWeight(const Contribution& ingredient) const {
     if (!ingredient.is_seen) return 0;
-    const double t = (ingredient.sighting.border_px - options_.border_margin_px + 0.5) / 2;
-    return std::clamp(t, 1e-3, 1.0);
+    const double t = (ingredient.sighting.border_px - border_margin_px_ + options_.ramp_start_px) /
+                     options_.ramp_px;
+    return std::clamp(t, options_.least_border_weight, 1.0);
   }
 
   const Chart& chart_;
@@ -239,7 +241,9 @@ class Blender {
   const std::vector<PreparedPhoto>& photos_;
   const ChartBlocks& cells_;
   const ChartChoice& choice_;
-  const BakeOptions& options_;
+  const BlendOptions& options_;
+  double border_margin_px_;
+  bool smooth_seams_;
   std::vector<ChartInCamera> views_;
 };
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "invrender/colour/colour.h"
-#include "invrender/measure/texel_blocks.h"
-#include "invrender/select/choose.h"
+#include "invrender/compose/compose_inputs.h"
+#include "invrender/inputs/bake_options.h"
 #include "scene/coverage.h"
 #include "scene/textured_model.h"
 
@@ -44,12 +44,7 @@ struct ChartPixels {
 // Fills a chart at full resolution: each texel from the photographs that its block and the blocks
 // around it chose, blended across the seam between them, and from the others where those do not
 // see it. Colours are corrected and in the chart's own light.
-ChartPixels ComposeChart(const Chart& chart,
-                         int chart_index,
-                         const ChartTexels& texels,
-                         const std::vector<PreparedPhoto>& photos,
-                         const ChartBlocks& blocks,
-                         const ChartChoice& choice,
+ChartPixels ComposeChart(const ComposeInputs& inputs,
                          const ColourModel& colour,
                          const BakeOptions& options);
 

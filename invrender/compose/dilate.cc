@@ -150,14 +150,13 @@ void InpaintBorders(ChartPixels& pixels) {
   Dilate(pixels, known, wanted, false);
 }
 
-void CloseHoles(ChartPixels& pixels) {
-  constexpr int kReach = 3;
+void CloseHoles(const DilateOptions& options, ChartPixels& pixels) {
   const int width = pixels.states.width;
   const int height = pixels.states.height;
   // The first texel that is not open in one direction: outside the chart counts as kOutside;
   // kOpen if there is none within reach.
   const auto look = [&](int x, int y, int dx, int dy) {
-    for (int step = 1; step <= kReach; ++step) {
+    for (int step = 1; step <= options.slit_texels; ++step) {
       const int i = x + step * dx;
       const int j = y + step * dy;
       if (i < 0 || j < 0 || i >= width || j >= height) return TexelState::kOutside;
@@ -182,7 +181,7 @@ void CloseHoles(ChartPixels& pixels) {
           !is_slit(look(x, y, 0, -1), look(x, y, 0, 1))) {
         continue;
       }
-      *wanted.At(x, y) = kReach;
+      *wanted.At(x, y) = static_cast<uint8_t>(options.slit_texels);
       slits.push_back(static_cast<size_t>(y) * width + x);
     }
   }

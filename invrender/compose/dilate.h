@@ -3,6 +3,7 @@
 #pragma once
 
 #include "invrender/compose/compose.h"
+#include "invrender/inputs/fill_options.h"
 
 namespace groundglass {
 
@@ -10,10 +11,10 @@ namespace groundglass {
 // an edge of the model shows the sky as much as the wall.
 void InpaintBorders(ChartPixels& pixels);
 
-// Open texels in slits and specks narrower than a few texels, covered on one side at least, take
+// Open texels in slits and specks of a few texels (slit_texels), covered on one side at least, take
 // the colour beside them, so that no black hairline shows. No photograph showed them: their
 // provenance is kProvenanceFilled.
-void CloseHoles(ChartPixels& pixels);
+void CloseHoles(const DilateOptions& options, ChartPixels& pixels);
 
 // Copies a chart to its page and repeats its border around it, `gutter_texels` wide, so that
 // filters near the border find only the face's own colour.

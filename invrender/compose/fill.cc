@@ -11,12 +11,11 @@ namespace groundglass {
 namespace {
 
 // All that is unknown (not 0), in place.
-void PaintOver(const cv::Mat& unknown, ChartPixels& pixels) {
-  constexpr double kRadius = 4;  // texels that speak for one
+void PaintOver(const cv::Mat& unknown, double radius, ChartPixels& pixels) {
   cv::Mat painted;
   if (pixels.srgb16.Empty()) {
     cv::Mat srgb8(unknown.rows, unknown.cols, CV_8UC3, pixels.srgb8.values.data());
-    cv::inpaint(srgb8, unknown, painted, kRadius, cv::INPAINT_TELEA);
+    cv::inpaint(srgb8, unknown, painted, radius, cv::INPAINT_TELEA);
     painted.copyTo(srgb8, unknown);
     return;
   }
@@ -25,7 +24,7 @@ void PaintOver(const cv::Mat& unknown, ChartPixels& pixels) {
   for (int channel = 0; channel < 3; ++channel) {
     cv::Mat plane;
     cv::extractChannel(srgb16, plane, channel);
-    cv::inpaint(plane, unknown, painted, kRadius, cv::INPAINT_TELEA);
+    cv::inpaint(plane, unknown, painted, radius, cv::INPAINT_TELEA);
     painted.copyTo(plane, unknown);
     cv::insertChannel(plane, srgb16, channel);
   }
@@ -33,7 +32,7 @@ void PaintOver(const cv::Mat& unknown, ChartPixels& pixels) {
 
 }  // namespace
 
-void FillOpenTexels(ChartPixels& pixels) {
+void FillOpenTexels(const FillOptions& options, ChartPixels& pixels) {
   const auto is_state = [&](size_t i, TexelState state) {
     return static_cast<TexelState>(pixels.states.values[i]) == state;
   };
@@ -53,7 +52,7 @@ void FillOpenTexels(ChartPixels& pixels) {
     }
   }
   if (num_open == 0 || num_known == 0) return;
-  PaintOver(unknown, pixels);
+  PaintOver(unknown, options.radius_texels, pixels);
   for (size_t i = 0; i < pixels.states.values.size(); ++i) {
     if (!is_state(i, TexelState::kOpen)) continue;
     pixels.provenance.values[i] = kProvenanceFilled;

@@ -94,8 +94,8 @@ struct Agreement {
   double count = 0;
 };
 
-// How alike two photographs each show the calmest third of a chart's patches.
-Agreement MeasureAgreement(std::vector<PatchPair> pairs) {
+// How alike two photographs each show the calmest of a chart's patches.
+Agreement MeasureAgreement(std::vector<PatchPair> pairs, const GrainOptions& options) {
   constexpr int kShift = 3;
   constexpr int kNumShifts = 2 * kShift + 1;
   constexpr int kInside = kInner - 2 * kShift;
@@ -104,7 +104,7 @@ Agreement MeasureAgreement(std::vector<PatchPair> pairs) {
     return a.energy < b.energy;
   });
   std::map<PhotoPair, Correlations> sums;
-  const size_t num_calm = (pairs.size() + 2) / 3;
+  const size_t num_calm = (pairs.size() + options.calm_one_in - 1) / options.calm_one_in;
   for (size_t i = 0; i < num_calm; ++i) {
     Correlations& sum = sums.try_emplace(pairs[i].Photos(), Correlations::Zero()).first->second;
     const BandPatch second = pairs[i].second->Both();
@@ -125,13 +125,8 @@ Agreement MeasureAgreement(std::vector<PatchPair> pairs) {
 }
 
 // The charts' certainty from their agreement.
-std::vector<double> Certainty(const std::vector<Agreement>& agreements) {
-  // Agreement of pure grain over a few patches, and where shared detail is beyond doubt: the charts
-  // of wiesner, with grain, have 0.07 to 0.19 (but two that are full of joints), those of brick
-  // 0.26 to 0.49, whether cameras are exact or corrected.
-  constexpr double kGrain = 0.18;
-  constexpr double kDetail = 0.26;
-  constexpr double kFewSpots = 20;  // charts with fewer lean on the mean of all
+std::vector<double> Certainty(const std::vector<Agreement>& agreements,
+                              const GrainOptions& options) {
   Agreement all;
   for (const Agreement& chart : agreements) {
     all.sum += chart.sum;
@@ -140,27 +135,29 @@ std::vector<double> Certainty(const std::vector<Agreement>& agreements) {
   std::vector<double> certainty(agreements.size(), 0);
   if (all.count == 0) return certainty;
   for (size_t i = 0; i < agreements.size(); ++i) {
-    const double agreement =
-        (agreements[i].sum + kFewSpots * all.sum / all.count) / (agreements[i].count + kFewSpots);
-    certainty[i] = std::clamp((kDetail - agreement) / (kDetail - kGrain), 0.0, 1.0);
+    const double agreement = (agreements[i].sum + options.few_patches * all.sum / all.count) /
+                             (agreements[i].count + options.few_patches);
+    certainty[i] = std::clamp((options.detail_agreement - agreement) /
+                                  (options.detail_agreement - options.grain_agreement),
+                              0.0,
+                              1.0);
   }
   return certainty;
 }
 
 // The photographs' variances in one band from what differs between pairs of them.
 std::vector<double> SolveVariances(const std::map<PhotoPair, std::vector<float>>& differences,
-                                   size_t num_photos) {
-  constexpr size_t kFewest = 6;  // patches
-  constexpr double kCalm = 0.3;  // the quantile that counts
-  constexpr double kPrior = 20;  // patches that say that a photograph is like the others
+                                   size_t num_photos,
+                                   const GrainOptions& options) {
   const auto size = static_cast<Eigen::Index>(num_photos);
-  Eigen::MatrixXd normal = kPrior * Eigen::MatrixXd::Identity(size, size);
+  Eigen::MatrixXd normal = options.prior_patches * Eigen::MatrixXd::Identity(size, size);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   std::vector<double> halves;
   for (const auto& [photos, unsorted] : differences) {
-    if (unsorted.size() < kFewest) continue;
+    if (static_cast<int>(unsorted.size()) < options.fewest_patches) continue;
     std::vector<float> sorted = unsorted;
-    const auto rank = static_cast<size_t>(kCalm * static_cast<double>(sorted.size()));
+    const auto rank =
+        static_cast<size_t>(options.calm_quantile * static_cast<double>(sorted.size()));
     std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
     const double weight = static_cast<double>(sorted.size());
     for (const int i : {photos.first, photos.second}) {
@@ -171,7 +168,7 @@ std::vector<double> SolveVariances(const std::map<PhotoPair, std::vector<float>>
   }
   if (halves.empty()) return std::vector<double>(num_photos, 0);
   std::nth_element(halves.begin(), halves.begin() + halves.size() / 2, halves.end());
-  right.array() += kPrior * halves[halves.size() / 2];
+  right.array() += options.prior_patches * halves[halves.size() / 2];
   const Eigen::VectorXd variances = SolveBounded(normal, right, 0);
   return {variances.begin(), variances.end()};
 }
@@ -238,9 +235,10 @@ void Smooth(const std::vector<std::array<float, kGrainBands>>& variances,
 
 }  // namespace
 
-Grain MeasureGrain(const std::vector<Patch>& patches, size_t num_charts, size_t num_photos) {
-  // Darker than this, brightness does not compare.
-  constexpr float kDark = 0.1f;
+Grain MeasureGrain(const std::vector<Patch>& patches,
+                   size_t num_charts,
+                   size_t num_photos,
+                   const GrainOptions& options) {
   std::vector<std::vector<SpotBands>> views(patches.size());
   tbb::parallel_for(size_t{0}, patches.size(), [&](size_t i) {
     for (const SpotView& view : patches[i].views) views[i].push_back(SplitSpot(view));
@@ -251,7 +249,7 @@ Grain MeasureGrain(const std::vector<Patch>& patches, size_t num_charts, size_t 
     for (size_t a = 0; a < views[i].size(); ++a) {
       for (size_t b = a + 1; b < views[i].size(); ++b) {
         const PatchPair& pair = pairs[patches[i].chart].emplace_back(views[i][a], views[i][b]);
-        if (std::min(pair.first->mean, pair.second->mean) < kDark) continue;
+        if (std::min(pair.first->mean, pair.second->mean) < options.dark) continue;
         const float ratio = pair.first->mean / pair.second->mean;
         for (int band = 0; band < kGrainBands; ++band) {
           differences[band][pair.Photos()].push_back(
@@ -263,12 +261,12 @@ Grain MeasureGrain(const std::vector<Patch>& patches, size_t num_charts, size_t 
   Grain grain;
   std::vector<Agreement> agreements(num_charts);
   tbb::parallel_for(size_t{0}, num_charts, [&](size_t chart) {
-    agreements[chart] = MeasureAgreement(std::move(pairs[chart]));
+    agreements[chart] = MeasureAgreement(std::move(pairs[chart]), options);
   });
-  grain.certainty = Certainty(agreements);
+  grain.certainty = Certainty(agreements, options);
   grain.variances.resize(num_photos);
   for (int band = 0; band < kGrainBands; ++band) {
-    const std::vector<double> variances = SolveVariances(differences[band], num_photos);
+    const std::vector<double> variances = SolveVariances(differences[band], num_photos, options);
     for (size_t photo = 0; photo < num_photos; ++photo) {
       grain.variances[photo][band] = variances[photo];
     }
@@ -281,6 +279,7 @@ void SmoothGrain(const Chart& chart,
                  const ChartBlocks& blocks,
                  const ColourModel& colour,
                  const Grain& grain,
+                 const GrainOptions& options,
                  ChartPixels& pixels) {
   const double certainty = grain.certainty[chart_index];
   if (certainty <= 0) return;
@@ -298,9 +297,11 @@ void SmoothGrain(const Chart& chart,
     // Texels of several pixels have less grain.
     const double texel_px = std::max(1.0, chart.texel_size / all[all.size() / 2]);
     // A correction multiplies radiance; codes go with its root of about 2.4.
-    constexpr double kHalfWay = 0.3;  // between the frame's middle and its corners
     const double log_gain =
-        colour.Correction(photo, chart_index, static_cast<int>(k), kHalfWay).log().mean() / 2.4;
+        colour.Correction(photo, chart_index, static_cast<int>(k), options.vignetting_at)
+            .log()
+            .mean() /
+        2.4;
     for (int b = 0; b < kGrainBands; ++b) {
       variances[photo + 1][b] =
           static_cast<float>(certainty * 255 * 255 * grain.variances[photo][b] *

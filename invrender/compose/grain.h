@@ -3,6 +3,7 @@
 #pragma once
 
 #include "invrender/compose/compose.h"
+#include "invrender/inputs/detail_options.h"
 #include "invrender/measure/patches.h"
 
 #include <array>
@@ -29,7 +30,10 @@ struct Grain {
 // little. Certainty is the correlation of what two photographs show, again in the calmer patches,
 // at the best shift of up to three pixels for each chart and pair, so that it hardly depends on
 // cameras either; charts with few patches lean on the others.
-Grain MeasureGrain(const std::vector<Patch>& patches, size_t num_charts, size_t num_photos);
+Grain MeasureGrain(const std::vector<Patch>& patches,
+                   size_t num_charts,
+                   size_t num_photos,
+                   const GrainOptions& options);
 
 // Lowers the grain of a chart's texels: each band of their luma is multiplied by the share of its
 // energy thereabouts that is more than grain (Wiener's filter; Lee, PAMI 1980), so that lines and
@@ -40,6 +44,7 @@ void SmoothGrain(const Chart& chart,
                  const ChartBlocks& blocks,
                  const ColourModel& colour,
                  const Grain& grain,
+                 const GrainOptions& options,
                  ChartPixels& pixels);
 
 }  // namespace groundglass

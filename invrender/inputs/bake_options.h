@@ -3,6 +3,13 @@
 #pragma once
 
 #include "invrender/inputs/bake_photograph.h"
+#include "invrender/inputs/blend_options.h"
+#include "invrender/inputs/block_options.h"
+#include "invrender/inputs/colour_options.h"
+#include "invrender/inputs/consistency_options.h"
+#include "invrender/inputs/detail_options.h"
+#include "invrender/inputs/fill_options.h"
+#include "invrender/inputs/seam_options.h"
 #include "scene/image.h"
 #include "scene/polygon_model.h"
 
@@ -56,6 +63,17 @@ struct BakeOptions {
   // Gets each photograph's automatic face mask (MakeFaceMask) with the faces' numbers, from several
   // threads at once.
   std::function<void(const BakePhotograph& photograph, const Image16& numbers)> on_face_mask;
+
+  // The thresholds and weights of each stage, in the order in which they work.
+  BlockOptions blocks;
+  SharpnessOptions sharpness;
+  GrainOptions grain;
+  ColourOptions colour;
+  ConsistencyOptions consistency;
+  SeamOptions seams;
+  BlendOptions blend;
+  DilateOptions dilate;
+  FillOptions fill;
 
   void Check() const;  // throws Error naming the first field out of range
 };

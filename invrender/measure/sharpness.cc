@@ -15,21 +15,6 @@ namespace {
 constexpr int kSmoothSide = kSpotSide - 8;
 constexpr int kInnerSide = kSmoothSide - 2;
 constexpr int kNumInner = kInnerSide * kInnerSide;
-// Correlation from which two photographs show the same.
-constexpr double kAlike = 0.7;
-// Blur of a good slide, px^2 (wiesner's recipe: a lens of 0.6 px, and pixels), and for how many
-// patches that counts.
-constexpr double kOrdinaryBlurPx2 = 0.45;
-constexpr double kOrdinaryWeight = 1;
-// No photograph is sharper: pixels themselves, and a very good lens.
-constexpr double kLeastBlurPx2 = 0.25;
-// Between these many times the ordinary variance a photograph begins to count as blurred: brick,
-// where none is, has up to 2.2 by error; slides of wiesner and hard that are have 2.5 to 4.
-constexpr double kDoubtful = 2.3;
-constexpr double kCertain = 3;
-// What grain leaves in a second derivative of brightness, relative to the mean, is less than this:
-// patches with much less detail say nothing.
-constexpr double kDetailFloor = 0.02;
 
 using SmoothPatch = Eigen::Array<double, kSmoothSide, kSmoothSide>;
 using InnerPatch = Eigen::Array<double, kInnerSide, kInnerSide>;
@@ -55,7 +40,8 @@ struct PairEvidence {
 PairEvidence ComparePair(const SpotView& first,
                          const SmoothPatch& first_smooth,
                          const SpotView& second,
-                         const SmoothPatch& second_smooth) {
+                         const SmoothPatch& second_smooth,
+                         const SharpnessOptions& options) {
   PairEvidence evidence;
   const auto inner = [](const SmoothPatch& patch, int dx, int dy) {
     return patch.block<kInnerSide, kInnerSide>(1 + dy, 1 + dx);
@@ -63,7 +49,7 @@ PairEvidence ComparePair(const SpotView& first,
   const InnerPatch a = inner(first_smooth, 0, 0) - inner(first_smooth, 0, 0).mean();
   const InnerPatch b = inner(second_smooth, 0, 0) - inner(second_smooth, 0, 0).mean();
   const double scale = std::sqrt(a.square().sum() * b.square().sum());
-  if (!((a * b).sum() > kAlike * scale)) return evidence;
+  if (!((a * b).sum() > options.alike * scale)) return evidence;
 
   const SmoothPatch mean = (first_smooth + second_smooth) / 2;
   const InnerPatch here = inner(mean, 0, 0);
@@ -98,20 +84,21 @@ PairEvidence ComparePair(const SpotView& first,
   rows -= other * fitted;
   // Each patch counts once, however strong its contrast.
   const double strength = rows.leftCols<4>().squaredNorm() / kNumInner;
-  const double weight = 1 / (strength + kDetailFloor * kDetailFloor) / kNumInner;
+  const double weight = 1 / (strength + options.detail_floor * options.detail_floor) / kNumInner;
   evidence.normal = weight * rows.leftCols<4>().transpose() * rows.leftCols<4>();
   evidence.right = weight * rows.leftCols<4>().transpose() * rows.col(4);
   return evidence;
 }
 
 // In the order of the pairs (0, 1), (0, 2), ..., (1, 2), ...
-std::vector<PairEvidence> ComparePairs(const Patch& patch) {
+std::vector<PairEvidence> ComparePairs(const Patch& patch, const SharpnessOptions& options) {
   std::vector<SmoothPatch> smooth;
   for (const SpotView& view : patch.views) smooth.push_back(Smooth(view.luma));
   std::vector<PairEvidence> evidence;
   for (size_t a = 0; a < smooth.size(); ++a) {
     for (size_t b = a + 1; b < smooth.size(); ++b) {
-      evidence.push_back(ComparePair(patch.views[a], smooth[a], patch.views[b], smooth[b]));
+      evidence.push_back(
+          ComparePair(patch.views[a], smooth[a], patch.views[b], smooth[b], options));
     }
   }
   return evidence;
@@ -119,17 +106,21 @@ std::vector<PairEvidence> ComparePairs(const Patch& patch) {
 
 }  // namespace
 
-std::vector<Sharpness> MeasureSharpness(const std::vector<Patch>& patches, size_t num_photos) {
+std::vector<Sharpness> MeasureSharpness(const std::vector<Patch>& patches,
+                                        size_t num_photos,
+                                        const SharpnessOptions& options) {
   std::vector<Sharpness> sharpness(num_photos);
   if (num_photos == 0) return sharpness;
   std::vector<std::vector<PairEvidence>> evidence(patches.size());
-  tbb::parallel_for(
-      size_t{0}, patches.size(), [&](size_t i) { evidence[i] = ComparePairs(patches[i]); });
+  tbb::parallel_for(size_t{0}, patches.size(), [&](size_t i) {
+    evidence[i] = ComparePairs(patches[i], options);
+  });
 
   const auto num_unknowns = static_cast<Eigen::Index>(2 * num_photos);
-  Eigen::MatrixXd normal = kOrdinaryWeight * Eigen::MatrixXd::Identity(num_unknowns, num_unknowns);
+  Eigen::MatrixXd normal =
+      options.ordinary_weight * Eigen::MatrixXd::Identity(num_unknowns, num_unknowns);
   Eigen::VectorXd right =
-      Eigen::VectorXd::Constant(num_unknowns, kOrdinaryWeight * kOrdinaryBlurPx2);
+      Eigen::VectorXd::Constant(num_unknowns, options.ordinary_weight * options.ordinary_blur_px2);
   for (size_t i = 0; i < patches.size(); ++i) {
     const std::vector<SpotView>& views = patches[i].views;
     size_t pair = 0;
@@ -144,7 +135,7 @@ std::vector<Sharpness> MeasureSharpness(const std::vector<Patch>& patches, size_
       }
     }
   }
-  const Eigen::VectorXd blur = SolveBounded(normal, right, kLeastBlurPx2);
+  const Eigen::VectorXd blur = SolveBounded(normal, right, options.least_blur_px2);
 
   std::vector<double> means;
   for (size_t i = 0; i < num_photos; ++i) {
@@ -152,11 +143,12 @@ std::vector<Sharpness> MeasureSharpness(const std::vector<Patch>& patches, size_
     means.push_back(sharpness[i].blur_px2.mean());
   }
   std::nth_element(means.begin(), means.begin() + num_photos / 2, means.end());
-  const double ordinary = std::max(kOrdinaryBlurPx2, means[num_photos / 2]);
+  const double ordinary = std::max(options.ordinary_blur_px2, means[num_photos / 2]);
   for (Sharpness& s : sharpness) {
     const double worse = s.blur_px2.maxCoeff() / ordinary;
     const double better = std::max(1.0, s.blur_px2.minCoeff() / ordinary);
-    const double certainty = std::clamp((worse - kDoubtful) / (kCertain - kDoubtful), 0.0, 1.0);
+    const double certainty =
+        std::clamp((worse - options.doubtful) / (options.certain - options.doubtful), 0.0, 1.0);
     // As in PreparedPhoto::Quality: the worse direction counts three times.
     s.factor = std::pow(1 + certainty * (worse - 1), -3.0 / 8) *
                std::pow(1 + certainty * (better - 1), -1.0 / 8);

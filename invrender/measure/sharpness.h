@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "invrender/inputs/detail_options.h"
 #include "invrender/measure/patches.h"
 
 #include <Eigen/Dense>
@@ -24,6 +25,8 @@ struct Sharpness {
 // contrast and part of a pixel's shift are fitted apart, and patches that do not look alike are
 // left out. Photographs that share too little with others count as ordinary. One for each
 // photograph.
-std::vector<Sharpness> MeasureSharpness(const std::vector<Patch>& patches, size_t num_photos);
+std::vector<Sharpness> MeasureSharpness(const std::vector<Patch>& patches,
+                                        size_t num_photos,
+                                        const SharpnessOptions& options);
 
 }  // namespace groundglass

@@ -36,18 +36,17 @@ bool FindTexel(const ChartTexels& texels, int cell_x, int cell_y, int& best_x, i
 CellView ViewCell(const PreparedPhoto& photo,
                   const PhotoPyramid& pixels,
                   const SurfaceObservation& sighting,
-                  double texel_size) {
-  constexpr float kBlack = 0.002f;
-  constexpr float kBurnt = 0.93f;
+                  double texel_size,
+                  const BlockOptions& options) {
   CellView view;
   view.quality = static_cast<float>(photo.Quality(sighting));
   view.radius_squared = static_cast<float>(photo.RadiusSquared(sighting.image_px));
   // One tap at the level where the block is a pixel.
   const Eigen::Array3f radiance =
       pixels.Sample(sighting.image_px, sighting.px_from_unit * texel_size * kCellTexels, 1);
-  view.is_usable =
-      radiance.minCoeff() > kBlack && radiance.maxCoeff() < kBurnt && sighting.border_px > 2;
-  view.log_radiance = radiance.max(kBlack / 4).log();
+  view.is_usable = radiance.minCoeff() > options.black && radiance.maxCoeff() < options.burnt &&
+                   sighting.border_px > options.clear_px;
+  view.log_radiance = radiance.max(options.black / 4).log();
   return view;
 }
 
@@ -81,7 +80,10 @@ class CellObserver {
     return std::binary_search(cells_.photos.begin(), cells_.photos.end(), photo);
   }
 
-  void Observe(int photo_index, const PreparedPhoto& photo, const PhotoPyramid& pixels) {
+  void Observe(int photo_index,
+               const PreparedPhoto& photo,
+               const PhotoPyramid& pixels,
+               const BlockOptions& options) {
     const auto at = std::lower_bound(cells_.photos.begin(), cells_.photos.end(), photo_index);
     const size_t k = at - cells_.photos.begin();
     const size_t num_photos = cells_.photos.size();
@@ -94,7 +96,7 @@ class CellObserver {
         const auto sighting = photo.Observe(view, spot.plane_point.cast<double>(), spot.face);
         if (!sighting) continue;
         CellView& cell_view = cells_.views[block * num_photos + k];
-        cell_view = ViewCell(photo, pixels, *sighting, chart_.texel_size);
+        cell_view = ViewCell(photo, pixels, *sighting, chart_.texel_size, options);
         if (cell_view.quality > 0) sees_row[cell_y] = 1;
       }
     });
@@ -147,7 +149,8 @@ std::vector<int> FindPhotosOfChart(const Chart& chart,
 
 std::vector<ChartBlocks> ObserveBlocks(const PolygonModel& model,
                                        const std::vector<Chart>& charts,
-                                       const std::vector<PreparedPhoto>& photos) {
+                                       const std::vector<PreparedPhoto>& photos,
+                                       const BlockOptions& options) {
   const int num_charts = static_cast<int>(charts.size());
   std::vector<std::optional<CellObserver>> observers(charts.size());
   tbb::parallel_for(0, num_charts, [&](int i) {
@@ -161,7 +164,7 @@ std::vector<ChartBlocks> ObserveBlocks(const PolygonModel& model,
     }
     tbb::parallel_for(0, num_charts, [&](int i) {
       if (observers[i] && observers[i]->MaySee(photo)) {
-        observers[i]->Observe(photo, photos[photo], *pixels);
+        observers[i]->Observe(photo, photos[photo], *pixels, options);
       }
     });
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "invrender/charts/charts.h"
+#include "invrender/inputs/block_options.h"
 #include "invrender/photos/prepared_photo.h"
 
 #include <Eigen/Dense>
@@ -43,6 +44,7 @@ std::vector<int> FindPhotosOfChart(const Chart& chart,
 // is decoded once; charts that have no page stay empty.
 std::vector<ChartBlocks> ObserveBlocks(const PolygonModel& model,
                                        const std::vector<Chart>& charts,
-                                       const std::vector<PreparedPhoto>& photos);
+                                       const std::vector<PreparedPhoto>& photos,
+                                       const BlockOptions& options);
 
 }  // namespace groundglass

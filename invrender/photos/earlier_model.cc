@@ -4,6 +4,7 @@
 
 #include "invrender/charts/spread_points.h"
 #include "invrender/inputs/bake_options.h"
+#include "invrender/photos/face_mask.h"
 
 #include <tbb/parallel_for.h>
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace groundglass {
@@ -106,6 +107,139 @@ class TouchedQuarters {
   std::vector<char> touched_;
 };
 
+// Labels by as few rays as tell. Where faces cut through one another (a chimney sunk into a roof)
+// the answer changes without an edge, along a straight line: the corners of a block, a tile or a
+// quarter on its two sides tell.
+class FaceMaskMaker {
+ public:
+  FaceMaskMaker(const Visibility& visibility, const Camera& camera, const TouchedQuarters& touched)
+      : visibility_(visibility),
+        camera_(camera),
+        touched_(touched),
+        position_in_world_(camera.PositionInWorld()) {}
+
+  Image16 Make() {
+    LookAtBlocks();
+    LookAtTiles();
+    labels_ = Image16(camera_.width_px, camera_.height_px, 1);
+    tbb::parallel_for(0, touched_.tile_rows(), [&](int row) {
+      for (int column = 0; column < touched_.tile_columns(); ++column) FillTile(column, row);
+    });
+    return std::move(labels_);
+  }
+
+ private:
+  uint16_t LabelAt(double x, double y) const {
+    const auto hit = visibility_.FirstHit(position_in_world_, UnprojectToWorld(camera_, {x, y}));
+    return static_cast<uint16_t>(hit && hit->is_front ? hit->face + 1 : 0);
+  }
+  uint16_t CornerLabel(int x, int y) const {
+    return LabelAt(std::min(x, camera_.width_px), std::min(y, camera_.height_px));
+  }
+
+  // The corners of all blocks, and which blocks these and the edges leave uniform.
+  void LookAtBlocks() {
+    const int columns = (touched_.tile_columns() + kBlockTiles - 1) / kBlockTiles;
+    const int rows = (touched_.tile_rows() + kBlockTiles - 1) / kBlockTiles;
+    block_corners_ = Image16(columns + 1, rows + 1, 1);
+    tbb::parallel_for(0, rows + 1, [&](int row) {
+      for (int column = 0; column <= columns; ++column) {
+        *block_corners_.At(column, row) =
+            CornerLabel(column * kBlockTiles * kTilePx, row * kBlockTiles * kTilePx);
+      }
+    });
+    is_block_uniform_ = Image8(columns, rows, 1);
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        *is_block_uniform_.At(column, row) =
+            AreCornersAlike(block_corners_, column, row) && !touched_.IsBlockTouched(column, row);
+      }
+    }
+  }
+
+  bool IsInUniformBlock(int column, int row) const {
+    return *is_block_uniform_.At(column / kBlockTiles, row / kBlockTiles) != 0;
+  }
+
+  // The corners of tiles, but for those amid uniform blocks.
+  void LookAtTiles() {
+    const int columns = touched_.tile_columns() + 1;
+    const int rows = touched_.tile_rows() + 1;
+    corners_ = Image16(columns, rows, 1);
+    tbb::parallel_for(0, rows, [&](int row) {
+      for (int column = 0; column < columns; ++column) {
+        bool is_needed = false;
+        for (int j = std::max(0, row - 1); j <= std::min(row, rows - 2); ++j) {
+          for (int i = std::max(0, column - 1); i <= std::min(column, columns - 2); ++i) {
+            is_needed = is_needed || !IsInUniformBlock(i, j);
+          }
+        }
+        if (is_needed) *corners_.At(column, row) = CornerLabel(column * kTilePx, row * kTilePx);
+      }
+    });
+  }
+
+  void FillTile(int column, int row) {
+    const int x0 = column * kTilePx;
+    const int y0 = row * kTilePx;
+    if (IsInUniformBlock(column, row)) {
+      Fill(x0, y0, kTilePx, block_corners_.At(column / kBlockTiles, row / kBlockTiles));
+    } else if (AreCornersAlike(corners_, column, row) && !touched_.IsTileTouched(column, row)) {
+      Fill(x0, y0, kTilePx, corners_.At(column, row));
+    } else {
+      FillQuarters(column, row);
+    }
+  }
+
+  // The same for a tile's quarters; corners that several of them share are asked for once.
+  void FillQuarters(int column, int row) {
+    const int x0 = column * kTilePx;
+    const int y0 = row * kTilePx;
+    const uint16_t* top = corners_.At(column, row);
+    const uint16_t* bottom = corners_.At(column, row + 1);
+    std::array<int, 9> labels_of_corners;
+    labels_of_corners.fill(-1);
+    labels_of_corners[0] = top[0];
+    labels_of_corners[2] = top[1];
+    labels_of_corners[6] = bottom[0];
+    labels_of_corners[8] = bottom[1];
+    const auto ask = [&](int i, int j) {
+      int& label = labels_of_corners[3 * j + i];
+      if (label < 0) label = CornerLabel(x0 + i * kQuarterPx, y0 + j * kQuarterPx);
+      return label;
+    };
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      const int i = quarter % 2;
+      const int j = quarter / 2;
+      const auto label = static_cast<uint16_t>(ask(2 * i, 2 * j));
+      const bool is_uniform = !touched_.IsTouched(2 * column + i, 2 * row + j) &&
+                              ask(1, 1) == label && ask(1, 2 * j) == label &&
+                              ask(2 * i, 1) == label;
+      Fill(x0 + i * kQuarterPx, y0 + j * kQuarterPx, kQuarterPx, is_uniform ? &label : nullptr);
+    }
+  }
+
+  // All the same, or a ray for each pixel.
+  void Fill(int x0, int y0, int side, const uint16_t* label) {
+    const int x1 = std::min(x0 + side, camera_.width_px);
+    const int y1 = std::min(y0 + side, camera_.height_px);
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        *labels_.At(x, y) = label ? *label : LabelAt(x + 0.5, y + 0.5);
+      }
+    }
+  }
+
+  const Visibility& visibility_;
+  const Camera& camera_;
+  const TouchedQuarters& touched_;
+  Eigen::Vector3d position_in_world_;
+  Image16 block_corners_;
+  Image8 is_block_uniform_;
+  Image16 corners_;  // of tiles
+  Image16 labels_;
+};
+
 }  // namespace
 
 Image16 MakeFaceMask(const PolygonModel& model,
@@ -121,97 +255,7 @@ Image16 MakeFaceMask(const PolygonModel& model,
                         kMaxHalvings);
     }
   }
-  Image16 labels(camera.width_px, camera.height_px, 1);
-  const Eigen::Vector3d position = camera.PositionInWorld();
-  const auto label_at = [&](double x, double y) {
-    const auto hit = visibility.FirstHit(position, UnprojectToWorld(camera, {x, y}));
-    return static_cast<uint16_t>(hit && hit->is_front ? hit->face + 1 : 0);
-  };
-  // Where faces cut through one another (a chimney sunk into a roof) the answer changes without an
-  // edge, along a straight line: the corners of a block, a tile or a quarter on its two sides tell.
-  const auto corner_label = [&](int x, int y) {
-    return label_at(std::min(x, camera.width_px), std::min(y, camera.height_px));
-  };
-  const int block_columns = (touched.tile_columns() + kBlockTiles - 1) / kBlockTiles;
-  const int block_rows = (touched.tile_rows() + kBlockTiles - 1) / kBlockTiles;
-  Image16 block_corners(block_columns + 1, block_rows + 1, 1);
-  tbb::parallel_for(0, block_rows + 1, [&](int row) {
-    for (int column = 0; column <= block_columns; ++column) {
-      *block_corners.At(column, row) =
-          corner_label(column * kBlockTiles * kTilePx, row * kBlockTiles * kTilePx);
-    }
-  });
-  Image8 is_block_uniform(block_columns, block_rows, 1);
-  for (int row = 0; row < block_rows; ++row) {
-    for (int column = 0; column < block_columns; ++column) {
-      *is_block_uniform.At(column, row) =
-          AreCornersAlike(block_corners, column, row) && !touched.IsBlockTouched(column, row);
-    }
-  }
-  // Of tiles, but for those amid uniform blocks.
-  const int num_columns = touched.tile_columns() + 1;
-  Image16 corners(num_columns, touched.tile_rows() + 1, 1);
-  tbb::parallel_for(0, touched.tile_rows() + 1, [&](int row) {
-    for (int column = 0; column < num_columns; ++column) {
-      bool is_needed = false;
-      for (int j = std::max(0, row - 1); j <= std::min(row, touched.tile_rows() - 1); ++j) {
-        for (int i = std::max(0, column - 1); i <= std::min(column, num_columns - 2); ++i) {
-          is_needed = is_needed || *is_block_uniform.At(i / kBlockTiles, j / kBlockTiles) == 0;
-        }
-      }
-      if (is_needed) *corners.At(column, row) = corner_label(column * kTilePx, row * kTilePx);
-    }
-  });
-  // All the same, or a ray for each pixel.
-  const auto fill = [&](int x0, int y0, int side, const uint16_t* label) {
-    const int x1 = std::min(x0 + side, camera.width_px);
-    const int y1 = std::min(y0 + side, camera.height_px);
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) {
-        *labels.At(x, y) = label ? *label : label_at(x + 0.5, y + 0.5);
-      }
-    }
-  };
-  tbb::parallel_for(0, touched.tile_rows(), [&](int row) {
-    for (int column = 0; column < touched.tile_columns(); ++column) {
-      const int x0 = column * kTilePx;
-      const int y0 = row * kTilePx;
-      const int block_column = column / kBlockTiles;
-      const int block_row = row / kBlockTiles;
-      if (*is_block_uniform.At(block_column, block_row) != 0) {
-        fill(x0, y0, kTilePx, block_corners.At(block_column, block_row));
-        continue;
-      }
-      const uint16_t* top = corners.At(column, row);
-      const uint16_t* bottom = corners.At(column, row + 1);
-      if (AreCornersAlike(corners, column, row) && !touched.IsTileTouched(column, row)) {
-        fill(x0, y0, kTilePx, top);
-        continue;
-      }
-      // The same for the tile's quarters; corners that several of them share are asked for once.
-      std::array<int, 9> labels_of_corners;
-      labels_of_corners.fill(-1);
-      labels_of_corners[0] = top[0];
-      labels_of_corners[2] = top[1];
-      labels_of_corners[6] = bottom[0];
-      labels_of_corners[8] = bottom[1];
-      const auto ask = [&](int i, int j) {
-        int& label = labels_of_corners[3 * j + i];
-        if (label < 0) label = corner_label(x0 + i * kQuarterPx, y0 + j * kQuarterPx);
-        return label;
-      };
-      for (int quarter = 0; quarter < 4; ++quarter) {
-        const int i = quarter % 2;
-        const int j = quarter / 2;
-        const auto label = static_cast<uint16_t>(ask(2 * i, 2 * j));
-        const bool is_uniform = !touched.IsTouched(2 * column + i, 2 * row + j) &&
-                                ask(1, 1) == label && ask(1, 2 * j) == label &&
-                                ask(2 * i, 1) == label;
-        fill(x0 + i * kQuarterPx, y0 + j * kQuarterPx, kQuarterPx, is_uniform ? &label : nullptr);
-      }
-    }
-  });
-  return labels;
+  return FaceMaskMaker(visibility, camera, touched).Make();
 }
 
 }  // namespace groundglass

@@ -3,6 +3,7 @@
 #include "invrender/photos/prepared_photo.h"
 
 #include "invrender/photos/border_distance.h"
+#include "invrender/photos/face_mask.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/formats/ignore_mask.h"
@@ -52,11 +53,10 @@ Image8 Coarser(const Image8& ignored, int side) {
 // everything is.
 Image8 FindIgnored(const BakePhotograph& photograph,
                    int index,
-                   const BakeOptions& options,
-                   PhotoCache& cache) {
+                   const PhotoSurroundings& surroundings) {
   Image8 ignored;
-  if (options.detect_mount) {
-    cache.Get(index, [&](const PhotoPyramid& whole) {
+  if (surroundings.options.detect_mount) {
+    surroundings.cache.Get(index, [&](const PhotoPyramid& whole) {
       ignored = whole.bits() == 16 ? FindMount(whole.Full16()) : FindMount(whole.Full());
     });
   }
@@ -67,6 +67,22 @@ Image8 FindIgnored(const BakePhotograph& photograph,
     for (size_t i = 0; i < mask.values.size(); ++i) ignored.values[i] |= mask.values[i];
   }
   return ignored;
+}
+
+// The automatic mask, in pixels `side` times as long as the image's.
+Image16 MakeLabels(const BakePhotograph& photograph,
+                   const PhotoSurroundings& surroundings,
+                   int side) {
+  const Camera camera = CoarserCamera(photograph.camera, side);
+  if (surroundings.earlier) return surroundings.earlier->MakeFaceMask(camera);
+  return MakeFaceMask(surroundings.model, surroundings.visibility, camera);
+}
+
+// The mask as a person painted it.
+Image16 ReadPaintedLabels(const BakePhotograph& photograph, const PolygonModel& model) {
+  const Image16 numbers = ReadLabels(*photograph.faces_file);
+  CheckFitsCamera(*photograph.faces_file, numbers.width, numbers.height, photograph.camera);
+  return LabelsFromNumbers(model, numbers, *photograph.faces_file);
 }
 
 }  // namespace
@@ -84,69 +100,69 @@ void CheckFitsCamera(const std::filesystem::path& file,
 
 PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
                              int index,
-                             const PolygonModel& model,
-                             const Visibility& visibility,
-                             const EarlierModel* earlier,
-                             const std::vector<int>& chart_of_face,
-                             const BakeOptions& options,
-                             const MaskDetail& detail,
-                             PhotoCache& cache)
-    : visibility_(visibility),
-      earlier_(earlier),
-      chart_of_face_(chart_of_face),
-      cache_(cache),
+                             const PhotoSurroundings& surroundings,
+                             const PhotoMask& mask)
+    : visibility_(surroundings.visibility),
+      earlier_(surroundings.earlier),
+      chart_of_face_(surroundings.chart_of_face),
+      cache_(surroundings.cache),
       index_(index),
       camera_(photograph.camera),
       position_in_world_(photograph.camera.PositionInWorld()),
       half_size_px_(photograph.camera.width_px / 2.0, photograph.camera.height_px / 2.0),
       weight_(photograph.weight),
-      frame_margin_px_(std::max(1.0, options.frame_margin * photograph.camera.width_px)),
-      border_margin_px_(options.border_margin_px),
-      tolerance_(visibility.DefaultTolerance()),
+      frame_margin_px_(
+          std::max(1.0, surroundings.options.frame_margin * photograph.camera.width_px)),
+      border_margin_px_(surroundings.options.border_margin_px),
+      tolerance_(visibility_.DefaultTolerance()),
       is_hand_painted_(photograph.faces_file.has_value()),
-      mask_side_(is_hand_painted_ ? 1 : 1 << detail.num_halvings),
+      mask_side_(mask.side),
       mask_from_image_(1.0 / mask_side_),
       crease_bonus_px_(kCreaseBonusPx / mask_side_) {
+  const size_t num_faces = surroundings.model.faces.size();
   if (photograph.faces) {
-    allowed_.assign(model.faces.size(), 0);
+    allowed_.assign(num_faces, 0);
     for (const int face : *photograph.faces) allowed_.at(face) = 1;
   }
-  const ImageSize size = ReadImageSize(photograph.image_file);
-  CheckFitsCamera(photograph.image_file, size.width, size.height, camera_);
-  const bool is_asked_for = options.on_face_mask && !detail.is_survey;
-  Image16 labels;
-  const auto make_labels = [&](int side) {
-    const Camera camera = CoarserCamera(camera_, side);
-    labels = earlier ? earlier->MakeFaceMask(camera) : MakeFaceMask(model, visibility, camera);
-  };
-  if (is_asked_for) {
-    make_labels(1);
-    options.on_face_mask(photograph, NumbersFromLabels(model, labels));
-  }
-  if (is_hand_painted_) {
-    const Image16 numbers = ReadLabels(*photograph.faces_file);
-    CheckFitsCamera(*photograph.faces_file, numbers.width, numbers.height, camera_);
-    labels = LabelsFromNumbers(model, numbers, *photograph.faces_file);
-  } else if (mask_side_ > 1 || !is_asked_for) {
-    make_labels(mask_side_);
-  }
-  const Image8 ignored = detail.is_survey
-                             ? Image8()
-                             : Coarser(FindIgnored(photograph, index, options, cache), mask_side_);
   // Farther than this from a border, distance no longer matters.
   const double farthest_px =
       std::max((border_margin_px_ + kTrustedFrom - 0.5) / mask_side_ + 0.5, 3 + crease_bonus_px_) +
       1;
   sight_map_ =
-      VisibilityMap(labels,
-                    ComputeBorderDistance(model,
+      VisibilityMap(mask.labels,
+                    ComputeBorderDistance(surroundings.model,
                                           CoarserCamera(camera_, mask_side_),
-                                          labels,
-                                          chart_of_face,
-                                          ignored,
+                                          mask.labels,
+                                          chart_of_face_,
+                                          mask.ignored,
                                           crease_bonus_px_),
                     std::min(kFarthestBorder, static_cast<int>(farthest_px * kBorderStepsPerPx)));
-  is_shown_ = sight_map_.ShownFaces(model.faces.size());
+  is_shown_ = sight_map_.ShownFaces(num_faces);
+}
+
+PreparedPhoto PreparePhoto(const BakePhotograph& photograph,
+                           int index,
+                           const PhotoSurroundings& surroundings,
+                           const MaskDetail& detail) {
+  const ImageSize size = ReadImageSize(photograph.image_file);
+  CheckFitsCamera(photograph.image_file, size.width, size.height, photograph.camera);
+  const BakeOptions& options = surroundings.options;
+  const bool is_asked_for = options.on_face_mask && !detail.is_survey;
+  PhotoMask mask;
+  if (!photograph.faces_file) mask.side = 1 << detail.num_halvings;
+  if (is_asked_for) {
+    mask.labels = MakeLabels(photograph, surroundings, 1);
+    options.on_face_mask(photograph, NumbersFromLabels(surroundings.model, mask.labels));
+  }
+  if (photograph.faces_file) {
+    mask.labels = ReadPaintedLabels(photograph, surroundings.model);
+  } else if (mask.side > 1 || !is_asked_for) {
+    mask.labels = MakeLabels(photograph, surroundings, mask.side);
+  }
+  if (!detail.is_survey) {
+    mask.ignored = Coarser(FindIgnored(photograph, index, surroundings), mask.side);
+  }
+  return {photograph, index, surroundings, mask};
 }
 
 ChartInCamera PreparedPhoto::View(const Chart& chart, int chart_index) const {

@@ -51,22 +51,32 @@ struct MaskDetail {
   bool is_survey = false;
 };
 
+// What all photographs of a bake are prepared with; it must outlive them, but for `options`.
+struct PhotoSurroundings {
+  const PolygonModel& model;
+  const Visibility& visibility;
+  const EarlierModel* earlier;  // if the model has changed since; nullptr if not
+  const std::vector<int>& chart_of_face;
+  const BakeOptions& options;
+  PhotoCache& cache;
+};
+
+// What of a photograph is to be looked at.
+struct PhotoMask {
+  int side = 1;    // pixels of the image along a side of the mask's
+  Image16 labels;  // face from 1, in the mask's pixels; 0: none
+  Image8 ignored;  // not 0: not to be looked at; empty: everything is
+};
+
 // A photograph made ready to be looked up: its face mask, how far each pixel is from what must not
 // be printed on its face, and its pixels through a cache.
 class PreparedPhoto {
  public:
-  // Reads the image and the masks; throws Error if they do not fit the camera. `index` is the
-  // photograph's in the cache, which must outlive this, as the others. `earlier`: if the model has
-  // changed since; nullptr if not.
+  // Made by PreparePhoto. `index` is the photograph's in the cache.
   PreparedPhoto(const BakePhotograph& photograph,
                 int index,
-                const PolygonModel& model,
-                const Visibility& visibility,
-                const EarlierModel* earlier,
-                const std::vector<int>& chart_of_face,
-                const BakeOptions& options,
-                const MaskDetail& detail,
-                PhotoCache& cache);
+                const PhotoSurroundings& surroundings,
+                const PhotoMask& mask);
 
   ChartInCamera View(const Chart& chart, int chart_index) const;
 
@@ -134,5 +144,12 @@ class PreparedPhoto {
   std::vector<bool> is_shown_;
   VisibilityMap sight_map_;
 };
+
+// Reads the image and the masks; throws Error if they do not fit the camera. Hands the automatic
+// face mask to BakeOptions::on_face_mask. `index` is the photograph's in the cache.
+PreparedPhoto PreparePhoto(const BakePhotograph& photograph,
+                           int index,
+                           const PhotoSurroundings& surroundings,
+                           const MaskDetail& detail);
 
 }  // namespace groundglass

@@ -3,28 +3,30 @@
 #pragma once
 
 #include "invrender/colour/colour.h"
-#include "invrender/inputs/bake_options.h"
+#include "invrender/inputs/consistency_options.h"
 #include "invrender/measure/sharpness.h"
 #include "invrender/measure/texel_blocks.h"
+#include "invrender/select/chart_choice.h"
 
 #include <vector>
 
 namespace groundglass {
 
-// Which photograph textures each block of a chart.
-struct ChartChoice {
-  std::vector<int> best;           // per block: k in ChartBlocks::photos, or -1
-  std::vector<float> consistency;  // [block * photos.size() + k]: 1 agrees with the consensus,
-                                   // towards 0 something else stands there, or it is blurred
-};
+// How well each view agrees with the consensus of the others, ChartChoice::consistency; 1 for a
+// photograph that is alone.
+std::vector<float> MeasureConsistency(const ChartBlocks& blocks,
+                                      int chart,
+                                      const ColourModel& colour,
+                                      const ConsistencyOptions& options);
 
-// Picks by resolution, angle and distance to borders (CellView::quality), against photographs that
-// differ from the consensus of the others or are blurred (`sharpness`: for each photograph; empty:
-// all alike); then seams are smoothed.
-ChartChoice ChooseBlocks(const ChartBlocks& blocks,
-                         int chart,
-                         const ColourModel& colour,
-                         const std::vector<Sharpness>& sharpness,
-                         const BakeOptions& options);
+// Lowers the consistency of blurred photographs where several look (fewest_to_compare).
+// `sharpness`: for each photograph.
+void PreferSharp(const ChartBlocks& blocks,
+                 const std::vector<Sharpness>& sharpness,
+                 const ConsistencyOptions& options,
+                 std::vector<float>& consistency);
+
+// Picks by resolution, angle and distance to borders (CellView::quality), times consistency.
+ChartChoice ChooseBlocks(const ChartBlocks& blocks, std::vector<float> consistency);
 
 }  // namespace groundglass

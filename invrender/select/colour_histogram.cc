@@ -6,15 +6,11 @@
 #include <cmath>
 
 namespace groundglass {
-namespace {
 
-constexpr float kBinsPerUnit = 4;  // a bin is a quarter of a log unit wide
-
-}  // namespace
-
-uint64_t ColourHistogram::Bin(const Eigen::Array3f& log_radiance, int dx, int dy, int dz) {
-  const auto index = [](float value, int shift) {
-    return static_cast<uint64_t>(static_cast<int>(std::floor(value * kBinsPerUnit)) + shift + 4096);
+uint64_t ColourHistogram::Bin(const Eigen::Array3f& log_radiance, int dx, int dy, int dz) const {
+  const auto index = [&](float value, int shift) {
+    return static_cast<uint64_t>(static_cast<int>(std::floor(value * options_.bins_per_unit)) +
+                                 shift + 4096);
   };
   return index(log_radiance[0], dx) << 40 | index(log_radiance[1], dy) << 20 |
          index(log_radiance[2], dz);
@@ -27,8 +23,7 @@ void ColourHistogram::Add(const Eigen::Array3f& log_radiance, double count) {
 }
 
 float ColourHistogram::NegativeLogLikelihood(const Eigen::Array3f& log_radiance) {
-  constexpr double kFewest = 100;
-  if (total_ < kFewest) return 0;
+  if (total_ < options_.fewest_counts) return 0;
   const auto [known, is_new] = surprises_.try_emplace(Bin(log_radiance, 0, 0, 0), 0.0f);
   if (!is_new) return known->second;
   double count = 0;
@@ -40,10 +35,11 @@ float ColourHistogram::NegativeLogLikelihood(const Eigen::Array3f& log_radiance)
       }
     }
   }
-  // A colour that makes up a twentieth of the wall is ordinary.
   const double share = count / total_;
-  known->second =
-      std::clamp(static_cast<float>(-std::log((share + 1e-4) / 0.05)), 0.0f, kMostSurprising);
+  known->second = std::clamp(
+      static_cast<float>(-std::log((share + options_.unseen_share) / options_.ordinary_share)),
+      0.0f,
+      options_.most_surprise);
   return known->second;
 }
 

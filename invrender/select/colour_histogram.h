@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
+#include "invrender/inputs/consistency_options.h"
+
 #include <Eigen/Dense>
 
 #include <cstdint>
@@ -12,16 +14,18 @@ namespace groundglass {
 // The colours that a surface is known to have: a sparse histogram of log radiance.
 class ColourHistogram {
  public:
+  explicit ColourHistogram(const PaletteOptions& options = {}) : options_(options) {}
+
   void Add(const Eigen::Array3f& log_radiance, double count = 1);
 
-  // How unlike the palette a colour is: 0 for the common ones, up to kMostSurprising for colours
+  // How unlike the palette a colour is: 0 for the common ones, up to most_surprise for colours
   // never seen; nothing surprises an empty palette.
   float NegativeLogLikelihood(const Eigen::Array3f& log_radiance);
-  static constexpr float kMostSurprising = 6;
 
  private:
-  static uint64_t Bin(const Eigen::Array3f& log_radiance, int dx, int dy, int dz);
+  uint64_t Bin(const Eigen::Array3f& log_radiance, int dx, int dy, int dz) const;
 
+  PaletteOptions options_;
   std::unordered_map<uint64_t, double> counts_;
   std::unordered_map<uint64_t, float> surprises_;  // of the bins asked for since the last Add
   double total_ = 0;

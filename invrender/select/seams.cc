@@ -12,22 +12,15 @@
 namespace groundglass {
 namespace {
 
-// Costs are natural logarithms of quality: 0.7 is half the resolution.
-constexpr double kWorst = 12;
-// A block's side of seam where nothing shows.
-constexpr double kSeam = 0.15;
-// For each log unit that the two photographs differ there, up to kMostDifferent.
-constexpr double kSeamPerUnit = 4;
-constexpr double kMostDifferent = 1;
-
 class SeamProblem {
  public:
   SeamProblem(const ChartBlocks& blocks,
               int chart,
               const ColourModel& colour,
-              const ChartChoice& choice)
-      : cells_(blocks), num_photos_(blocks.photos.size()) {
-    data_.assign(blocks.views.size(), kWorst);
+              const ChartChoice& choice,
+              const SeamOptions& options)
+      : cells_(blocks), options_(options), num_photos_(blocks.photos.size()) {
+    data_.assign(blocks.views.size(), options.worst);
     colours_.resize(blocks.views.size(), Eigen::Array3f::Zero());
     for (int block = 0; block < blocks.NumCells(); ++block) {
       const CellView* views = blocks.ViewsOf(block);
@@ -38,7 +31,7 @@ class SeamProblem {
       for (size_t k = 0; k < num_photos_; ++k) {
         if (views[k].quality <= 0) continue;
         const double score = views[k].quality * choice.consistency[Index(block, k)];
-        data_[Index(block, k)] = std::min(kWorst, -std::log(score / best + 1e-30));
+        data_[Index(block, k)] = std::min(options_.worst, -std::log(score / best + 1e-30));
         colours_[Index(block, k)] =
             colour.Corrected(blocks.photos[k], chart, static_cast<int>(k), views[k]);
       }
@@ -96,13 +89,14 @@ class SeamProblem {
   // A metric in (k, l) for each block, as expansion needs: a capped norm.
   double Difference(int block, int k, int l) const {
     if (k == l) return 0;
-    if (!IsSeen(block, k) || !IsSeen(block, l)) return kMostDifferent;
+    if (!IsSeen(block, k) || !IsSeen(block, l)) return options_.most_different;
     const float squared = (colours_[Index(block, k)] - colours_[Index(block, l)]).square().mean();
-    return std::min(kMostDifferent, std::sqrt(static_cast<double>(squared)));
+    return std::min(options_.most_different, std::sqrt(static_cast<double>(squared)));
   }
   double Seam(int block, int other, int k, int l) const {
     if (k == l) return 0;
-    return kSeam + kSeamPerUnit * (Difference(block, k, l) + Difference(other, k, l)) / 2;
+    return options_.side +
+           options_.per_difference * (Difference(block, k, l) + Difference(other, k, l)) / 2;
   }
 
   template <typename Add>
@@ -123,7 +117,7 @@ class SeamProblem {
       if (label == alpha) return 0.0;
       const double at_cell = label == k ? to_alpha[block] : Difference(block, label, alpha);
       const double at_other = label == l ? to_alpha[other] : Difference(other, label, alpha);
-      return kSeam + kSeamPerUnit * (at_cell + at_other) / 2;
+      return options_.side + options_.per_difference * (at_cell + at_other) / 2;
     };
     if (node[other] < 0) {
       add(node[block], both_keep, to_alpha_from(l));
@@ -143,6 +137,7 @@ class SeamProblem {
   }
 
   const ChartBlocks& cells_;
+  const SeamOptions& options_;
   size_t num_photos_;
   std::vector<double> data_;
   std::vector<Eigen::Array3f> colours_;
@@ -153,9 +148,10 @@ class SeamProblem {
 void SmoothSeams(const ChartBlocks& blocks,
                  int chart,
                  const ColourModel& colour,
+                 const SeamOptions& options,
                  ChartChoice& choice) {
   if (blocks.photos.size() < 2) return;
-  const SeamProblem problem(blocks, chart, colour, choice);
+  const SeamProblem problem(blocks, chart, colour, choice, options);
   // One round: on real scenes a second changed nothing that shows.
   for (size_t alpha = 0; alpha < blocks.photos.size(); ++alpha) {
     problem.Expand(static_cast<int>(alpha), choice.best);

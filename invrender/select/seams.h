@@ -3,8 +3,9 @@
 #pragma once
 
 #include "invrender/colour/colour.h"
+#include "invrender/inputs/seam_options.h"
 #include "invrender/measure/texel_blocks.h"
-#include "invrender/select/choose.h"
+#include "invrender/select/chart_choice.h"
 
 namespace groundglass {
 
@@ -14,6 +15,7 @@ namespace groundglass {
 void SmoothSeams(const ChartBlocks& blocks,
                  int chart,
                  const ColourModel& colour,
+                 const SeamOptions& options,
                  ChartChoice& choice);
 
 }  // namespace groundglass

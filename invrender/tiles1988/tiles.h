@@ -4,6 +4,8 @@
 
 #include "invrender/inputs/bake_options.h"
 #include "scene/formats/tile_file.h"
+#include "scene/polygon_model.h"
+#include "scene/visibility.h"
 
 #include <filesystem>
 #include <span>

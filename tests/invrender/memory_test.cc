@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "invrender/bake.h"
 #include "invrender/charts/charts.h"
+#include "invrender/charts/spread_points.h"
 #include "invrender/measure/texel_size.h"
 #include "invrender/photos/prepared_photo.h"
 #include "invrender/plan/memory_plan.h"
@@ -114,15 +115,10 @@ struct LargeBrick {
     return std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick";
   }
   PreparedPhoto Prepare(int index, const MaskDetail& detail) {
-    return PreparedPhoto(photographs[index],
-                         index,
-                         model,
-                         visibility,
-                         nullptr,
-                         chart_of_face,
-                         options,
-                         detail,
-                         cache);
+    return PreparePhoto(photographs[index],
+                        index,
+                        {model, visibility, nullptr, chart_of_face, options, cache},
+                        detail);
   }
   std::vector<PreparedPhoto> Survey() {
     std::vector<PreparedPhoto> survey;

@@ -97,17 +97,13 @@ std::vector<Patch> LookAt(const PolygonModel& model,
   std::vector<std::filesystem::path> files;
   for (const BakePhotograph& photograph : photographs) files.push_back(photograph.image_file);
   PhotoCache cache(files, std::numeric_limits<size_t>::max(), 8);
+  const BakeOptions options;
   std::vector<PreparedPhoto> photos;
   for (size_t i = 0; i < photographs.size(); ++i) {
-    photos.emplace_back(photographs[i],
-                        static_cast<int>(i),
-                        model,
-                        visibility,
-                        nullptr,
-                        chart_of_face,
-                        BakeOptions(),
-                        MaskDetail(),
-                        cache);
+    photos.push_back(PreparePhoto(photographs[i],
+                                  static_cast<int>(i),
+                                  {model, visibility, nullptr, chart_of_face, options, cache},
+                                  MaskDetail()));
   }
   return SamplePatches(model, charts, photos);
 }
@@ -224,7 +220,7 @@ TEST_F(Grainy4, MeasuresTheGrainOfEachPhotograph) {
                                              "s" + std::to_string(i + 1),
                                              Grainy(sigmas[i], i + 1)));
   }
-  const Grain grain = MeasureGrain(LookAt(model_, photographs_), 1, 4);
+  const Grain grain = MeasureGrain(LookAt(model_, photographs_), 1, 4, GrainOptions());
   EXPECT_GT(grain.certainty[0], 0.9);
   for (int i = 0; i < 4; ++i) {
     // White noise keeps 0.794 of its variance in the finest band; looking up between pixels takes
@@ -258,7 +254,8 @@ class Blurred : public testing::Test {
 };
 
 TEST_F(Blurred, IsMeasuredByComparison) {
-  const std::vector<Sharpness> sharpness = MeasureSharpness(LookAt(model_, photographs_), 4);
+  const std::vector<Sharpness> sharpness =
+      MeasureSharpness(LookAt(model_, photographs_), 4, SharpnessOptions());
   for (const int sharp : {0, 1, 3}) {
     EXPECT_EQ(sharpness[sharp].factor, 1);
     // 2.4 in truth. The heat equation holds for small differences, and falls short of large ones.
