@@ -100,6 +100,17 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
   AddModelOptions(command, arguments.model_arguments);
 }
 
+RegisterOptions ReadRegisterOptions(const RegisterArguments& arguments) {
+  RegisterOptions options = arguments.options;
+  if (arguments.points_file) options.control_points = ReadControlPoints(*arguments.points_file);
+  return options;
+}
+
+std::optional<Lens> ReadLensArgument(const RegisterArguments& arguments) {
+  if (!arguments.lens_file) return std::nullopt;
+  return ReadLens(*arguments.lens_file);
+}
+
 Scene ReadSceneForCommand(const RegisterArguments& arguments,
                           const std::vector<std::string>& not_needed) {
   SceneOptions options;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "cli/stage_keys.h"
+#include "pipeline/stage_keys.h"
 
-#include "cli/option_values.h"
 #include "scene/error.h"
 
 #include <nlohmann/json.hpp>
@@ -36,13 +35,14 @@ void AddRegistrationFiles(const Scene& scene, const Photograph& photograph, Stag
 
 }  // namespace
 
-StageInputs ReadStageOptions(const std::vector<const CLI::Option*>& options) {
-  OptionValues read = ReadOptionValues(options);
-  return {std::move(read.values), std::move(read.sha256_of_files)};
+StageInputs ReadStageOptions(const OptionTexts& options) {
+  StageInputs inputs;
+  inputs.options = options.values;
+  for (const auto& [name, file] : options.files) inputs.sha256_of_inputs[name] = HashFile(file);
+  return inputs;
 }
 
-StageInputs ReadRegistrationInputs(const Scene& scene,
-                                   const std::vector<const CLI::Option*>& options) {
+StageInputs ReadRegistrationInputs(const Scene& scene, const OptionTexts& options) {
   StageInputs inputs = ReadStageOptions(options);
   AddFile(scene, scene.model_file, inputs);
   for (const fs::path& file : scene.camera_files) AddFile(scene, file, inputs);
@@ -61,7 +61,7 @@ StageInputs ReadRegistrationInputs(const Scene& scene,
   return inputs;
 }
 
-StageInputs ReadTextureInputs(const Scene& scene, const std::vector<const CLI::Option*>& options) {
+StageInputs ReadTextureInputs(const Scene& scene, const OptionTexts& options) {
   StageInputs inputs = ReadStageOptions(options);
   for (const Photograph& photograph : scene.photographs) {
     if (photograph.faces_file) AddFile(scene, *photograph.faces_file, inputs);
@@ -80,17 +80,17 @@ std::string StageKey(const std::string& stage,
   return HashText(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-std::string RegistrationKey(const CommonOptions& common, const StageInputs& inputs) {
-  return StageKey("register", std::to_string(common.seed), inputs);
+std::string RegistrationKey(uint64_t seed, const StageInputs& inputs) {
+  return StageKey("register", std::to_string(seed), inputs);
 }
 
 Manifest MakeManifest(const std::string& command,
-                      const CommonOptions& common,
+                      uint64_t seed,
                       const std::vector<StageInputs>& inputs) {
   Manifest manifest;
   manifest.version = GROUNDGLASS_VERSION;
   manifest.command = command;
-  manifest.seed = common.seed;
+  manifest.seed = seed;
   for (const StageInputs& stage : inputs) {
     manifest.options.insert(stage.options.begin(), stage.options.end());
     manifest.sha256_of_inputs.insert(stage.sha256_of_inputs.begin(), stage.sha256_of_inputs.end());

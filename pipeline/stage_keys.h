@@ -2,22 +2,23 @@
 // Part of Groundglass.
 #pragma once
 
-#include "cli/commands.h"
 #include "scene/formats/output_folder.h"
 #include "scene/formats/scene_folder.h"
 
+#include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace groundglass {
 
-// The options of each stage of the main job, as the parser has them.
-struct StageOptions {
-  std::vector<const CLI::Option*> registering;
-  std::vector<const CLI::Option*> texture;
-  std::vector<const CLI::Option*> tiles;
-  std::vector<const CLI::Option*> stills;
+// What the options of a stage are set to, for manifest.json and for telling whether what was made
+// with them can be kept. Whatever changes what is written belongs here.
+struct OptionTexts {
+  std::map<std::string, std::string> values;  // by the option's name
+  // Files that options name count by what is in them: "--lens/nikon.lens" and where it lies.
+  std::map<std::string, std::filesystem::path> files;
 };
 
 // What the files of a stage depend on, beside the stage before it.
@@ -26,13 +27,12 @@ struct StageInputs {
   std::map<std::string, std::string> sha256_of_inputs;
 };
 
-// The options alone, with the files that they name.
-StageInputs ReadStageOptions(const std::vector<const CLI::Option*>& options);
+// The options alone, with the files that they name. Error for one of these that cannot be read.
+StageInputs ReadStageOptions(const OptionTexts& options);
 // With the files of the scene that registration reads: model, tags, photographs, masks.
-StageInputs ReadRegistrationInputs(const Scene& scene,
-                                   const std::vector<const CLI::Option*>& options);
+StageInputs ReadRegistrationInputs(const Scene& scene, const OptionTexts& options);
 // With those that only texturing reads: painted face masks, pairs.csv.
-StageInputs ReadTextureInputs(const Scene& scene, const std::vector<const CLI::Option*>& options);
+StageInputs ReadTextureInputs(const Scene& scene, const OptionTexts& options);
 
 // Another key for everything that could make the stage's files differ (OutputStages).
 std::string StageKey(const std::string& stage,
@@ -40,11 +40,11 @@ std::string StageKey(const std::string& stage,
                      const StageInputs& inputs);
 
 // The first stage's: the seed counts from there on.
-std::string RegistrationKey(const CommonOptions& common, const StageInputs& inputs);
+std::string RegistrationKey(uint64_t seed, const StageInputs& inputs);
 
 // A manifest of this program, with all these inputs.
 Manifest MakeManifest(const std::string& command,
-                      const CommonOptions& common,
+                      uint64_t seed,
                       const std::vector<StageInputs>& inputs);
 
 }  // namespace groundglass

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "cli/texture_stages.h"
+#include "pipeline/texture_stages.h"
 
+#include "invrender/bake_output.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/textured_model_io.h"
@@ -9,27 +10,50 @@
 #include "viewer/renderer.h"
 
 namespace groundglass {
+namespace {
+
 namespace fs = std::filesystem;
+
+void WriteTilesOrRecord(const TilesToWrite& tiles,
+                        const PolygonModel& model,
+                        std::vector<BakePhotograph> photographs,
+                        const fs::path& folder) {
+  const std::vector<std::vector<int>> faces =
+      PairFacesWithPhotographs(model, photographs, tiles.options);
+  for (size_t i = 0; i < photographs.size(); ++i) photographs[i].faces = faces[i];
+  if (tiles.form == TilesToWrite::Form::kRecord) {
+    WriteTileRecord(folder, {model, photographs, tiles.options});
+    return;
+  }
+  const Visibility visibility(model);
+  for (const BakePhotograph& photograph : photographs) {
+    if (photograph.faces->empty()) continue;
+    WriteTiles(folder / (photograph.name + ".tiles"), [&](const TileSink& append) {
+      MakeTiles(model, visibility, photograph, *photograph.faces, tiles.options, append);
+    });
+  }
+}
+
+}  // namespace
 
 BakeResult BakeAndWrite(const Scene& scene,
                         const std::vector<BakePhotograph>& photographs,
-                        const BakeArguments& arguments,
                         const BakeOptions& options,
-                        const CommonOptions& common,
+                        const std::string& page_format,
                         const fs::path& out,
                         const std::string& key,
-                        OutputStages& stages) {
-  const std::string page_extension = "." + arguments.format;
+                        OutputStages& stages,
+                        const JobObserver& observer) {
+  const std::string page_extension = "." + page_format;
   std::vector<std::string> masks;
   for (const BakePhotograph& photograph : photographs) {
     masks.push_back("faces/" + photograph.name + ".png");
   }
   stages.Begin(kTextureStage, key, masks);
-  ConfigureMallocTrimming(arguments);
   BakeOptions with_masks = options;
   with_masks.on_face_mask = FaceMaskWriter(out);
   BakeResult bake =
-      BakeTextures(scene.model, photographs, with_masks, MakeProgress(common, "texturing"));
+      BakeTextures(scene.model, photographs, with_masks, observer.Begin(kTextureStage));
   if (bake.coverage.CoveredShare() == 0) {
     throw Error("none of the " + std::to_string(photographs.size()) +
                 " photographs shows the front of a face that is to be textured, so nothing is; "
@@ -45,36 +69,45 @@ BakeResult BakeAndWrite(const Scene& scene,
 
 void EnsureTiles(const Scene& scene,
                  const std::vector<BakePhotograph>& photographs,
-                 const BakeArguments& arguments,
+                 const TilesToWrite& tiles,
                  const fs::path& out,
                  const std::string& key,
-                 OutputStages& stages) {
-  if (!arguments.tiles && !arguments.tile_record) return;
-  if (stages.IsComplete(kTilesStage, key)) return;
+                 OutputStages& stages,
+                 const JobObserver& observer) {
+  if (tiles.form == TilesToWrite::Form::kNone) return;
+  if (stages.IsComplete(kTilesStage, key)) {
+    observer.Keep(kTilesStage);
+    return;
+  }
+  const bool is_record = tiles.form == TilesToWrite::Form::kRecord;
   std::vector<std::string> files;
-  if (arguments.tile_record) files = {"tiles/record.json", "tiles/model.osu"};
+  if (is_record) files = {"tiles/record.json", "tiles/model.osu"};
   for (const BakePhotograph& photograph : photographs) {
-    files.push_back(arguments.tile_record ? "tiles/views/" + photograph.name + ".view"
-                                          : "tiles/" + photograph.name + ".tiles");
+    files.push_back(is_record ? "tiles/views/" + photograph.name + ".view"
+                              : "tiles/" + photograph.name + ".tiles");
   }
   stages.Begin(kTilesStage, key, files);
-  WriteTilesIfAsked(arguments, scene.model, photographs, out);
+  observer.Begin(kTilesStage);
+  WriteTilesOrRecord(tiles, scene.model, photographs, out / "tiles");
   stages.Finish(kTilesStage);
 }
 
 ImageSize EnsureStills(const std::vector<Registration>& registrations,
                        int num_stills,
-                       const CommonOptions& common,
                        const fs::path& out,
                        const std::string& key,
-                       OutputStages& stages) {
+                       OutputStages& stages,
+                       const JobObserver& observer) {
   std::vector<Camera> cameras;
   for (const Registration& registration : registrations) {
     if (HasCorrection(registration.verdict)) cameras.push_back(registration.CorrectedCamera());
   }
   if (cameras.size() < 2 || num_stills < 1) return {};
   const ImageSize size = CommonFrame(cameras);
-  if (stages.IsComplete(kStillsStage, key)) return size;
+  if (stages.IsComplete(kStillsStage, key)) {
+    observer.Keep(kStillsStage);
+    return size;
+  }
   std::vector<std::string> files;
   for (int still = 1; still <= num_stills; ++still) {
     files.push_back("renders/still_" + std::to_string(still) + ".jpg");
@@ -89,7 +122,7 @@ ImageSize EnsureStills(const std::vector<Registration>& registrations,
   RenderOptions options;
   options.background = Background::kSky;
   options.supersampling = 2;
-  const Progress progress = MakeProgress(common, "rendering");
+  const Progress progress = observer.Begin(kStillsStage);
   for (int still = 0; still < num_stills; ++still) {
     WriteSrgb8(out / files[still], renderer.Render(flight[2 * still + 1], options));
     if (progress) progress(still + 1, num_stills, files[still]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "cli/register_stages.h"
+#include "pipeline/register_stages.h"
 
 #include "register/register.h"
 #include "register/registration_output.h"
@@ -11,7 +11,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <cstdio>
 #include <mutex>
 #include <optional>
 
@@ -44,25 +43,26 @@ std::optional<RegisteredScene> ReadRegistered(const Scene& scene, const fs::path
 
 }  // namespace
 
-void TellChanged(const OutputStages& stages, const std::vector<std::string>& names) {
+void TellChanged(const OutputStages& stages,
+                 const std::vector<std::string>& names,
+                 const JobObserver& observer) {
   for (const std::string& name : names) {
     for (const std::string& file : stages.FindChanged(name)) {
-      std::fprintf(stderr,
-                   "groundglass: %s has changed since it was written; it is made again\n",
-                   file.c_str());
+      observer.Tell(file + " has changed since it was written; it is made again");
     }
   }
 }
 
 RegisteredScene EnsureRegistered(const Scene& scene,
-                                 const RegisterArguments& arguments,
-                                 const CommonOptions& common,
+                                 const std::optional<Lens>& lens,
+                                 const RegisterOptions& options,
+                                 const fs::path& out,
                                  const std::string& key,
-                                 OutputStages& stages) {
-  const fs::path& out = arguments.out_folder;
+                                 OutputStages& stages,
+                                 const JobObserver& observer) {
   if (stages.Has(kRegisterStage, key, kRegistrationFile)) {
     if (std::optional<RegisteredScene> kept = ReadRegistered(scene, out / kRegistrationFile)) {
-      if (!common.quiet) std::fprintf(stderr, "keeping the tags that are there already\n");
+      observer.Keep(kRegisterStage);
       if (!stages.IsComplete(kRegisterStage, key)) {
         WriteRegistrationOutput(scene, *kept, out);
         stages.Finish(kRegisterStage);
@@ -76,12 +76,8 @@ RegisteredScene EnsureRegistered(const Scene& scene,
     files.push_back("views/" + photograph.name + ".view");
   }
   stages.Begin(kRegisterStage, key, files);
-  std::optional<Lens> lens;
-  if (arguments.lens_file) lens = ReadLens(*arguments.lens_file);
-  RegisterOptions options = arguments.options;
-  if (arguments.points_file) options.control_points = ReadControlPoints(*arguments.points_file);
   const RegisteredScene registered =
-      RegisterScene(scene, lens, options, MakeProgress(common, "registering"));
+      RegisterScene(scene, lens, options, observer.Begin(kRegisterStage));
   WriteRegistrationOutput(scene, registered, out);
   stages.Finish(kRegisterStage);
   return registered;
@@ -89,11 +85,14 @@ RegisteredScene EnsureRegistered(const Scene& scene,
 
 void EnsureOverlays(const Scene& scene,
                     const RegisteredScene& registered,
-                    const RegisterArguments& arguments,
-                    const CommonOptions& common,
+                    const fs::path& out,
                     const std::string& key,
-                    OutputStages& stages) {
-  if (stages.IsComplete(kOverlayStage, key)) return;
+                    OutputStages& stages,
+                    const JobObserver& observer) {
+  if (stages.IsComplete(kOverlayStage, key)) {
+    observer.Keep(kOverlayStage);
+    return;
+  }
   std::vector<std::string> files;
   std::vector<int> wanted;
   for (size_t i = 0; i < scene.photographs.size(); ++i) {
@@ -102,7 +101,7 @@ void EnsureOverlays(const Scene& scene,
     if (!stages.Has(kOverlayStage, key, files.back())) wanted.push_back(static_cast<int>(i));
   }
   stages.Begin(kOverlayStage, key, files);
-  const Progress progress = MakeProgress(common, "drawing overlays");
+  const Progress progress = observer.Begin(kOverlayStage);
   const std::vector<ModelEdge> edges = FindModelEdges(scene.model);
   const Visibility visibility(scene.model);
   std::mutex mutex;
@@ -113,7 +112,7 @@ void EnsureOverlays(const Scene& scene,
     const Camera measured = registration.MeasuredCamera();
     const Camera corrected = registration.CorrectedCamera();
     const bool is_corrected = HasCorrection(registration.verdict);
-    WriteSrgb8(arguments.out_folder / OverlayFile(registration.name),
+    WriteSrgb8(out / OverlayFile(registration.name),
                DrawOverlay(ReadSrgb8(scene.photographs[i].image_file),
                            scene.model,
                            edges,
