@@ -8,7 +8,7 @@
 #include "calibrate/tag_detection.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/srgb.h"
 #include "scene/text.h"
 

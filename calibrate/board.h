@@ -2,9 +2,9 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/formats/lens.h"
 #include "scene/frames.h"
 #include "scene/image.h"
-#include "scene/lens.h"
 
 #include <Eigen/Dense>
 

@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #include "calibrate/board.h"
 #include "scene/error.h"
+#include "scene/formats/view_io.h"
 #include "scene/text.h"
-#include "scene/view_io.h"
 
 #include <cmath>
 #include <map>

@@ -2,62 +2,9 @@
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
 
-#include "invrender/selection.h"
-#include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/photograph_name.h"
-#include "scene/text.h"
-
 #include <malloc.h>
 
-#include <algorithm>
-
 namespace groundglass {
-namespace {
-
-// Leaves out the photographs whose masks from --masks cannot be used, and tells why.
-std::vector<std::string> DropThoseWithFaultyMasks(const std::filesystem::path& folder,
-                                                  std::vector<BakePhotograph>& photographs) {
-  std::vector<std::string> faults;
-  std::erase_if(photographs, [&](const BakePhotograph& photograph) {
-    const auto& file = photograph.mask_file;
-    if (!file || *file != folder / file->filename()) return false;
-    try {
-      const Image16 mask = ReadLabels(*file);
-      if (mask.width == photograph.camera.width_px && mask.height == photograph.camera.height_px) {
-        return false;
-      }
-      faults.push_back(Error(*file,
-                             "mask has " + std::to_string(mask.width) + " x " +
-                                 std::to_string(mask.height) + " pixels, its photograph " +
-                                 std::to_string(photograph.camera.width_px) + " x " +
-                                 std::to_string(photograph.camera.height_px))
-                           .what());
-    } catch (const Error& error) {
-      faults.push_back(error.what());
-    }
-    faults.back() += "; " + photograph.name + " is left out of the texture";
-    return true;
-  });
-  return faults;
-}
-
-// Those that cannot be used or were left out included: a table that names them is right.
-std::vector<PhotographName> AllNames(const Scene& scene) {
-  std::vector<PhotographName> names = NamesOf(scene.photographs);
-  for (const UnreadablePhotograph& unreadable : scene.unreadable) {
-    const Photograph& photograph = unreadable.photograph;
-    names.push_back({photograph.name, photograph.image_file.filename().string()});
-  }
-  for (const std::string& name : scene.left_out) names.push_back({name, ""});
-  std::sort(names.begin(), names.end(), [](const PhotographName& a, const PhotographName& b) {
-    return NaturalLess(a.name, b.name);
-  });
-  return names;
-}
-
-}  // namespace
-
 BakeOptions BakeArguments::Options() const {
   if (options.bits == 16 && format == "jpg") {
     throw CLI::ValidationError("--bits",
@@ -67,6 +14,11 @@ BakeOptions BakeArguments::Options() const {
   result.match_colour = !no_colour;
   result.reject_occluders = !no_consensus;
   return result;
+}
+
+TilesToWrite BakeArguments::Tiles() const {
+  using Form = TilesToWrite::Form;
+  return {tile_record ? Form::kRecord : tiles ? Form::kTiles : Form::kNone, tile_options};
 }
 
 void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::string& only_option) {
@@ -90,14 +42,18 @@ void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::st
                    "it must be")
       ->capture_default_str()
       ->group(group);
-  command->add_option("--exclude", arguments.exclude, "photographs to leave out, by name")
-      ->delimiter(',')
-      ->group(group);
-  command->add_option(only_option, arguments.only, "faces to texture: 3, 3-7, or a name")
+  command->add_option("--exclude", arguments.selection.exclude, "photographs to leave out, by name")
       ->delimiter(',')
       ->group(group);
   command
-      ->add_option("--masks", arguments.masks_folder, "folder of masks (white = ignore), as s5.png")
+      ->add_option(
+          only_option, arguments.selection.only_faces, "faces to texture: 3, 3-7, or a name")
+      ->delimiter(',')
+      ->group(group);
+  command
+      ->add_option("--masks",
+                   arguments.selection.masks_folder,
+                   "folder of masks (white = ignore), as s5.png")
       ->type_name("FOLDER")
       ->group(group);
   command->add_option("--format", arguments.format, "of the OBJ's pages; the GLB's are always JPEG")
@@ -116,7 +72,9 @@ void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::st
                  arguments.options.fill_gaps,
                  "paint over what no photograph shows; provenance says 65535 there")
       ->group(group);
-  command->add_flag("--accepted-only", arguments.accepted_only, "leave out photographs in review")
+  command
+      ->add_flag(
+          "--accepted-only", arguments.selection.accepted_only, "leave out photographs in review")
       ->group(group);
   command
       ->add_flag("--no-colour",
@@ -154,60 +112,10 @@ void AddTileArguments(CLI::App* command, BakeArguments& arguments) {
       ->group(group);
 }
 
-void WriteTilesIfAsked(const BakeArguments& arguments,
-                       const PolygonModel& model,
-                       std::vector<BakePhotograph> photographs,
-                       const std::filesystem::path& out) {
-  if (!arguments.tiles && !arguments.tile_record) return;
-  const std::filesystem::path folder = out / "tiles";
-  const std::vector<std::vector<int>> faces =
-      PairFacesWithPhotographs(model, photographs, arguments.tile_options);
-  for (size_t i = 0; i < photographs.size(); ++i) photographs[i].faces = faces[i];
-  if (arguments.tile_record) {
-    WriteTileRecord(folder, {model, photographs, arguments.tile_options});
-    return;
-  }
-  const Visibility visibility(model);
-  for (const BakePhotograph& photograph : photographs) {
-    if (photograph.faces->empty()) continue;
-    WriteTiles(folder / (photograph.name + ".tiles"), [&](const TileSink& append) {
-      MakeTiles(model, visibility, photograph, *photograph.faces, arguments.tile_options, append);
-    });
-  }
-}
-
-void ConfigureMallocTrimming(const BakeArguments& arguments) {
-  const bool is_limited = arguments.options.max_memory_mb > 0;
+void ConfigureMallocTrimming(int max_memory_mb) {
+  const bool is_limited = max_memory_mb > 0;
   mallopt(M_MMAP_THRESHOLD, is_limited ? 1 << 20 : 64 << 20);
   mallopt(M_TRIM_THRESHOLD, is_limited ? 1 << 20 : 256 << 20);
-}
-
-std::vector<std::string> NarrowPhotographs(const BakeArguments& arguments,
-                                           const Scene& scene,
-                                           std::vector<BakePhotograph>& photographs) {
-  std::vector<std::string> faults;
-  // That the scene has them all is known; some may be missing here for other reasons.
-  std::vector<std::string> exclude = arguments.exclude;
-  std::erase_if(exclude, [&](const std::string& name) {
-    return std::none_of(
-        photographs.begin(), photographs.end(), [&](const BakePhotograph& photograph) {
-          return photograph.name == name || photograph.image_file.filename() == name;
-        });
-  });
-  ExcludePhotographs(exclude, photographs);
-  if (photographs.empty()) return faults;
-  if (arguments.masks_folder) {
-    UseMasks(*arguments.masks_folder, photographs);
-    faults = DropThoseWithFaultyMasks(*arguments.masks_folder, photographs);
-  }
-  const std::filesystem::path pairs = scene.folder / "pairs.csv";
-  if (std::filesystem::exists(pairs)) {
-    RestrictToPairs(pairs, scene.model, photographs, AllNames(scene));
-  }
-  if (!arguments.only.empty()) {
-    RestrictToFaces(scene.model, FindFaces(scene.model, arguments.only), photographs);
-  }
-  return faults;
 }
 
 }  // namespace groundglass

@@ -3,10 +3,10 @@
 #include "calibrate/board.h"
 #include "cli/commands.h"
 #include "cli/json_output.h"
-#include "scene/atomic_file.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/lens.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/lens.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "cli/check_report.h"
 
-#include "scene/standpoint.h"
+#include "scene/advice/standpoint.h"
 
 #include <nlohmann/json.hpp>
 

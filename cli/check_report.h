@@ -3,8 +3,8 @@
 #pragma once
 
 #include "cli/model_arguments.h"
-#include "scene/advice.h"
-#include "scene/scene_folder.h"
+#include "scene/advice/advice.h"
+#include "scene/formats/scene_folder.h"
 
 #include <string>
 #include <vector>

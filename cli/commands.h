@@ -13,7 +13,7 @@
 
 namespace groundglass {
 
-// Exit statuses (docs/formats.md).
+// Exit statuses (docs/output-folder.md).
 constexpr int kExitDone = 0;
 constexpr int kExitWrongInput = 1;
 constexpr int kExitWrongUsage = 2;

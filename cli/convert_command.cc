@@ -4,8 +4,8 @@
 #include "cli/json_output.h"
 #include "cli/model_arguments.h"
 #include "cli/option_range.h"
-#include "scene/colmap_io.h"
-#include "scene/convert.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/convert.h"
 
 #include <cstdio>
 #include <filesystem>

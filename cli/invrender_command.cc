@@ -2,19 +2,22 @@
 // Part of Groundglass.
 #include "cli/bake_arguments.h"
 #include "cli/commands.h"
+#include "cli/job_printer.h"
 #include "cli/json_output.h"
 #include "cli/model_arguments.h"
 #include "cli/option_values.h"
 #include "cli/register_arguments.h"
-#include "cli/stage_keys.h"
-#include "cli/texture_stages.h"
 #include "cli/warnings_last.h"
-#include "scene/advice.h"
+#include "invrender/bake_output.h"
+#include "pipeline/photograph_selection.h"
+#include "pipeline/stage_keys.h"
+#include "pipeline/texture_stages.h"
+#include "scene/advice/advice.h"
 #include "scene/error.h"
-#include "scene/model_io.h"
-#include "scene/output_folder.h"
-#include "scene/pose_check.h"
-#include "scene/registration_io.h"
+#include "scene/formats/model_io.h"
+#include "scene/formats/output_folder.h"
+#include "scene/formats/pose_check.h"
+#include "scene/formats/registration_io.h"
 #include "scene/text.h"
 
 #include <nlohmann/json.hpp>
@@ -51,8 +54,8 @@ std::vector<BakePhotograph> Select(const InvrenderArguments& arguments, const Sc
     for (const std::filesystem::path& beside : {folder, folder.lexically_normal() / ".."}) {
       const std::filesystem::path verdicts = beside / "registration.json";
       if (!std::filesystem::exists(verdicts)) continue;
-      photographs =
-          SelectPhotographs(scene, ReadRegistrations(verdicts), arguments.bake.accepted_only);
+      photographs = SelectPhotographs(
+          scene, ReadRegistrations(verdicts), arguments.bake.selection.accepted_only);
       break;
     }
   }
@@ -96,7 +99,7 @@ std::string DescribeCamera(const Camera& camera) {
 StageInputs ReadInputs(const InvrenderArguments& arguments,
                        const Scene& scene,
                        const std::vector<BakePhotograph>& photographs) {
-  StageInputs inputs = ReadTextureInputs(scene, arguments.texture_options);
+  StageInputs inputs = ReadTextureInputs(scene, ReadOptionTexts(arguments.texture_options));
   const StageInputs scene_inputs = ReadRegistrationInputs(scene, {});
   inputs.sha256_of_inputs.insert(scene_inputs.sha256_of_inputs.begin(),
                                  scene_inputs.sha256_of_inputs.end());
@@ -159,7 +162,7 @@ int RunInvrender(const InvrenderArguments& arguments) {
   scene_options.model_file = arguments.model_file;
   scene_options.model = arguments.model_arguments.Options();
   scene_options.views = arguments.views_folder;
-  scene_options.exclude = arguments.bake.exclude;
+  scene_options.exclude = arguments.bake.selection.exclude;
   Scene scene = ReadScene(arguments.scene_folder, scene_options);
   if (!arguments.model_file) {
     const auto others = DescribeOtherModels(scene.folder, scene.model_file);
@@ -176,7 +179,7 @@ int RunInvrender(const InvrenderArguments& arguments) {
   std::vector<std::string> unreadable = DescribeUnreadable(scene);
   std::vector<BakePhotograph> photographs = Select(arguments, scene);
   const std::vector<std::string> mask_faults =
-      NarrowPhotographs(arguments.bake, scene, photographs);
+      NarrowPhotographs(arguments.bake.selection, scene, photographs);
   unreadable.insert(unreadable.end(), mask_faults.begin(), mask_faults.end());
   if (arguments.common.dry_run) {
     return TellDryRun(arguments.common,
@@ -199,18 +202,25 @@ int RunInvrender(const InvrenderArguments& arguments) {
     options.as_photographed = std::move(earlier.model);
   }
   const StageInputs inputs = ReadInputs(arguments, scene, photographs);
-  const StageInputs tiles_inputs = ReadStageOptions(arguments.tile_options);
-  const std::string key = StageKey(kTextureStage, std::to_string(arguments.common.seed), inputs);
-  OutputStages stages(out, MakeManifest("invrender", arguments.common, {inputs, tiles_inputs}));
+  const StageInputs tiles_inputs = ReadStageOptions(ReadOptionTexts(arguments.tile_options));
+  const uint64_t seed = arguments.common.seed;
+  const std::string key = StageKey(kTextureStage, std::to_string(seed), inputs);
+  OutputStages stages(out, MakeManifest("invrender", seed, {inputs, tiles_inputs}));
   // What `register` left beside it stays; what `run` made of another texture does not.
   for (const char* stage : {kTextureStage, kTilesStage, kStillsStage, kReportStage}) {
     stages.KeepOnly(stage, key);
   }
   stages.Write();
+  const JobObserver printer = MakeJobPrinter(arguments.common, options.max_memory_mb);
   const BakeResult result =
-      BakeAndWrite(scene, photographs, arguments.bake, options, arguments.common, out, key, stages);
-  EnsureTiles(
-      scene, photographs, arguments.bake, out, StageKey(kTilesStage, key, tiles_inputs), stages);
+      BakeAndWrite(scene, photographs, options, arguments.bake.format, out, key, stages, printer);
+  EnsureTiles(scene,
+              photographs,
+              arguments.bake.Tiles(),
+              out,
+              StageKey(kTilesStage, key, tiles_inputs),
+              stages,
+              printer);
   PrintSummary(result, photographs.size(), unreadable, arguments.common.json);
   PrintWarnings(unreadable);
   return unreadable.empty() ? kExitDone : kExitNeedsReview;

@@ -4,7 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/option_range.h"
-#include "scene/advice.h"
+#include "scene/advice/advice.h"
 #include "scene/model_sigma.h"
 #include "scene/text.h"
 

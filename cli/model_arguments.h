@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/model_io.h"
+#include "scene/formats/model_io.h"
 
 #include <CLI/CLI.hpp>
 

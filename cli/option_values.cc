@@ -2,11 +2,10 @@
 // Part of Groundglass.
 #include "cli/option_values.h"
 
-#include "scene/output_folder.h"
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string_view>
 
 namespace groundglass {
@@ -24,24 +23,24 @@ std::string NameOf(const CLI::Option& option) {
 }
 
 // Every file of a folder, or the one file, by its path from there.
-void HashFiles(const std::string& name,
-               const fs::path& path,
-               std::map<std::string, std::string>& sha256_of_files) {
+void AddFiles(const std::string& name,
+              const fs::path& path,
+              std::map<std::string, fs::path>& files) {
   if (!fs::is_directory(path)) {
-    sha256_of_files["--" + name + "/" + path.filename().string()] = HashFile(path);
+    files["--" + name + "/" + path.filename().string()] = path;
     return;
   }
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path)) {
     if (!entry.is_regular_file()) continue;
-    sha256_of_files["--" + name + "/" + entry.path().lexically_relative(path).generic_string()] =
-        HashFile(entry.path());
+    files["--" + name + "/" + entry.path().lexically_relative(path).generic_string()] =
+        entry.path();
   }
 }
 
 }  // namespace
 
-OptionValues ReadOptionValues(const std::vector<const CLI::Option*>& options) {
-  OptionValues read;
+OptionTexts ReadOptionTexts(const std::vector<const CLI::Option*>& options) {
+  OptionTexts read;
   for (const CLI::Option* option : options) {
     const std::string name = NameOf(*option);
     if (std::find(kWithoutEffect.begin(), kWithoutEffect.end(), name) != kWithoutEffect.end()) {
@@ -51,7 +50,7 @@ OptionValues ReadOptionValues(const std::vector<const CLI::Option*>& options) {
     const bool names_files = type.starts_with("FILE") || type.starts_with("FOLDER");
     std::string value;
     for (const std::string& result : option->results()) {
-      if (names_files) HashFiles(name, result, read.sha256_of_files);
+      if (names_files) AddFiles(name, result, read.files);
       value += (value.empty() ? "" : ",") + result;
     }
     if (names_files) continue;

@@ -2,23 +2,18 @@
 // Part of Groundglass.
 #pragma once
 
+#include "pipeline/stage_keys.h"
+
 #include <CLI/CLI.hpp>
 
-#include <map>
-#include <string>
 #include <vector>
 
 namespace groundglass {
 
-// What options are set to, for manifest.json and for telling whether what was made with them can be
-// kept. Taken from the parser, so that an option that is added anywhere counts at once. Those that
-// change no output (progress, threads, where to write) are left out.
-struct OptionValues {
-  std::map<std::string, std::string> values;  // by long name; lists with commas between
-  // Options of type FILE or FOLDER count by what is in the files: "--lens/nikon.lens" and its hash.
-  std::map<std::string, std::string> sha256_of_files;
-};
-OptionValues ReadOptionValues(const std::vector<const CLI::Option*>& options);
+// What options are set to. Taken from the parser, so that an option that is added anywhere counts
+// at once. Values by long name; lists with commas between. Those that change no output (progress,
+// threads, where to write) are left out. Of options of type FILE or FOLDER all the files.
+OptionTexts ReadOptionTexts(const std::vector<const CLI::Option*>& options);
 
 // The options that `add` gives to the command.
 template <typename Add>

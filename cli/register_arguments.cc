@@ -4,11 +4,11 @@
 
 #include "cli/warnings_last.h"
 #include "register/register.h"
-#include "scene/advice.h"
+#include "scene/advice/advice.h"
+#include "scene/formats/pose_check.h"
+#include "scene/formats/registration_io.h"
+#include "scene/formats/select_photographs.h"
 #include "scene/frames.h"
-#include "scene/pose_check.h"
-#include "scene/registration_io.h"
-#include "scene/select_photographs.h"
 
 #include <nlohmann/json.hpp>
 
@@ -98,6 +98,17 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
       ->capture_default_str()
       ->group(group);
   AddModelOptions(command, arguments.model_arguments);
+}
+
+RegisterOptions ReadRegisterOptions(const RegisterArguments& arguments) {
+  RegisterOptions options = arguments.options;
+  if (arguments.points_file) options.control_points = ReadControlPoints(*arguments.points_file);
+  return options;
+}
+
+std::optional<Lens> ReadLensArgument(const RegisterArguments& arguments) {
+  if (!arguments.lens_file) return std::nullopt;
+  return ReadLens(*arguments.lens_file);
 }
 
 Scene ReadSceneForCommand(const RegisterArguments& arguments,

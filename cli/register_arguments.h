@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 #include "cli/model_arguments.h"
 #include "register/register.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/scene_folder.h"
 
 #include <CLI/CLI.hpp>
 
@@ -29,6 +29,10 @@ struct RegisterArguments {
   RegisterOptions options;
 };
 void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments);
+
+// What the arguments come to, with the files that they name read. Error for one at fault.
+RegisterOptions ReadRegisterOptions(const RegisterArguments& arguments);
+std::optional<Lens> ReadLensArgument(const RegisterArguments& arguments);
 
 // Reads the scene, what is odd about it among its warnings (they are told last: WarningsLast), and
 // leaves the photographs that are asked for. Names that it does not have are an Error. not_needed:

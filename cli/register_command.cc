@@ -2,14 +2,15 @@
 // Part of Groundglass.
 #include "cli/check_report.h"
 #include "cli/commands.h"
+#include "cli/job_printer.h"
 #include "cli/json_output.h"
 #include "cli/option_values.h"
 #include "cli/register_arguments.h"
-#include "cli/register_stages.h"
-#include "cli/stage_keys.h"
-#include "cli/texture_stages.h"
 #include "cli/warnings_last.h"
-#include "scene/registration_io.h"
+#include "pipeline/register_stages.h"
+#include "pipeline/stage_keys.h"
+#include "pipeline/texture_stages.h"
+#include "scene/formats/registration_io.h"
 
 #include <cstdio>
 #include <memory>
@@ -46,20 +47,26 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
                            {"warnings", scene.warnings}});
       }
       const FolderLock lock = PrepareOutputFolder(registering.out_folder);
-      const StageInputs inputs = ReadRegistrationInputs(scene, arguments->options);
-      const std::string key = RegistrationKey(arguments->common, inputs);
-      OutputStages stages(registering.out_folder,
-                          MakeManifest("register", arguments->common, {inputs}));
+      const StageInputs inputs = ReadRegistrationInputs(scene, ReadOptionTexts(arguments->options));
+      const uint64_t seed = arguments->common.seed;
+      const std::string key = RegistrationKey(seed, inputs);
+      OutputStages stages(registering.out_folder, MakeManifest("register", seed, {inputs}));
       const bool is_other = !stages.IsFrom(kRegisterStage, key);
       for (const char* stage : {kRegisterStage, kOverlayStage}) stages.KeepOnly(stage, key);
       for (const char* stage : {kTextureStage, kTilesStage, kStillsStage, kReportStage}) {
         if (is_other) stages.KeepOnly(stage, "");
       }
-      TellChanged(stages, {kRegisterStage, kOverlayStage});
+      const JobObserver printer = MakeJobPrinter(arguments->common);
+      TellChanged(stages, {kRegisterStage, kOverlayStage}, printer);
       stages.Write();
-      const RegisteredScene registered =
-          EnsureRegistered(scene, registering, arguments->common, key, stages);
-      EnsureOverlays(scene, registered, registering, arguments->common, key, stages);
+      const RegisteredScene registered = EnsureRegistered(scene,
+                                                          ReadLensArgument(registering),
+                                                          ReadRegisterOptions(registering),
+                                                          registering.out_folder,
+                                                          key,
+                                                          stages,
+                                                          printer);
+      EnsureOverlays(scene, registered, registering.out_folder, key, stages, printer);
       if (arguments->common.json) {
         PrintRegistrationsJson(registered, scene.warnings);
       } else {

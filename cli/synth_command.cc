@@ -4,8 +4,8 @@
 #include "cli/json_output.h"
 #include "cli/option_range.h"
 #include "datasets-synthetic/synth.h"
-#include "scene/image_io.h"
-#include "scene/view_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/view_io.h"
 
 #include <nlohmann/json.hpp>
 

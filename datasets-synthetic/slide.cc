@@ -3,8 +3,8 @@
 #include "datasets-synthetic/slide.h"
 
 #include "datasets-synthetic/noise.h"
+#include "scene/formats/image_io.h"
 #include "scene/frames.h"
-#include "scene/image_io.h"
 #include "scene/srgb.h"
 
 #include <opencv2/imgproc.hpp>

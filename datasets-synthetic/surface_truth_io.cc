@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "datasets-synthetic/surface_truth.h"
-#include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/view_io.h"
 #include "scene/frames.h"
-#include "scene/image_io.h"
 #include "scene/text.h"
-#include "scene/view_io.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,13 +9,13 @@
 #include "datasets-synthetic/ray_tracer.h"
 #include "datasets-synthetic/surface_truth.h"
 #include "datasets-synthetic/truth_json.h"
-#include "scene/atomic_file.h"
-#include "scene/colmap_io.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/osu_io.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/osu_io.h"
+#include "scene/formats/view_io.h"
 #include "scene/srgb.h"
-#include "scene/view_io.h"
 
 #include <tbb/parallel_for.h>
 

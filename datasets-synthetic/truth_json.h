@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
-#include "datasets-synthetic/camera_errors.h"
 #include "datasets-synthetic/photograph_plan.h"
+#include "datasets-synthetic/vertex_error.h"
 #include "scene/polygon_model.h"
 
 #include <string>

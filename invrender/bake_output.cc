@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #include "invrender/bake_output.h"
 
-#include "scene/atomic_file.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/photograph_name.h"
-#include "scene/textured_model_io.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/photograph_name.h"
+#include "scene/formats/textured_model_io.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>

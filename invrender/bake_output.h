@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/invrender.h"
-#include "scene/colmap_io.h"
+#include "invrender/inputs/bake_photograph.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/scene_folder.h"
 #include "scene/registration.h"
-#include "scene/scene_folder.h"
 
 #include <filesystem>
 #include <functional>

@@ -2,12 +2,12 @@
 // Part of Groundglass.
 #include "invrender/selection.h"
 
-#include "scene/csv.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
-#include "scene/image_kind.h"
+#include "scene/formats/csv.h"
+#include "scene/formats/image_kind.h"
+#include "scene/formats/text_encoding.h"
 #include "scene/text.h"
-#include "scene/text_encoding.h"
 
 #include <algorithm>
 #include <map>

@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/invrender.h"
-#include "scene/photograph_name.h"
+#include "invrender/inputs/bake_photograph.h"
+#include "scene/formats/photograph_name.h"
 #include "scene/polygon_model.h"
 
 #include <filesystem>

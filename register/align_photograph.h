@@ -5,8 +5,8 @@
 #include "register/edges/edge_samples.h"
 #include "register/joint/joint_refinement.h"
 #include "register/register_options.h"
+#include "scene/formats/lens.h"
 #include "scene/image.h"
-#include "scene/lens.h"
 #include "scene/registration.h"
 
 #include <optional>

@@ -4,9 +4,9 @@
 
 #include "register/refine_accepted.h"
 #include "scene/error.h"
-#include "scene/ignore_mask.h"
-#include "scene/image_io.h"
-#include "scene/select_photographs.h"
+#include "scene/formats/ignore_mask.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/select_photographs.h"
 
 #include <tbb/parallel_for.h>
 

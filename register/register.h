@@ -4,10 +4,10 @@
 
 #include "register/align_photograph.h"
 #include "register/register_options.h"
-#include "scene/lens.h"
+#include "scene/formats/lens.h"
+#include "scene/formats/scene_folder.h"
 #include "scene/progress.h"
 #include "scene/registration.h"
-#include "scene/scene_folder.h"
 
 #include <optional>
 #include <string>

@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #include "register/registration_output.h"
 
-#include "scene/atomic_file.h"
-#include "scene/colmap_io.h"
-#include "scene/registration_io.h"
-#include "scene/view_io.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/registration_io.h"
+#include "scene/formats/view_io.h"
 
 namespace groundglass {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "register/register.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/scene_folder.h"
 
 #include <filesystem>
 

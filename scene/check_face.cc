@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "scene/check_face.h"
+
 #include "scene/face_outline.h"
-#include "scene/model_io.h"
 
 #include <algorithm>
 #include <cmath>

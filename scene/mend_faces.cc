@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #include "scene/mend_faces.h"
 
+#include "scene/check_face.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/face_outline.h"
-#include "scene/model_io.h"
 #include "scene/nested_faces.h"
 
 #include <algorithm>

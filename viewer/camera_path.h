@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/camera.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/polygon_model.h"
 
 #include <vector>

@@ -2,9 +2,9 @@
 // Part of Groundglass.
 #include "viewer/film.h"
 
-#include "scene/atomic_file.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
+#include "scene/formats/atomic_file.h"
 
 #include <fcntl.h>
 #include <sys/socket.h>

@@ -7,6 +7,7 @@
 #include "viewer/line_drawing.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 
 namespace groundglass {
@@ -116,6 +117,17 @@ Image8 DrawOverlay(const Image8& photograph_srgb8,
                    const Camera* corrected) {
   return DrawOverlay(
       photograph_srgb8, model, edges, visibility, OverlayCameras{&measured, corrected});
+}
+
+std::function<Image8(const Image8& photograph_srgb8, const Camera& camera, bool is_corrected)>
+MakeEdgeDrawing(const PolygonModel& model) {
+  const auto visibility = std::make_shared<const Visibility>(model);
+  return [&model, visibility, edges = FindModelEdges(model)](
+             const Image8& photograph_srgb8, const Camera& camera, bool is_corrected) {
+    const OverlayCameras cameras =
+        is_corrected ? OverlayCameras{nullptr, &camera} : OverlayCameras{&camera, nullptr};
+    return DrawOverlay(photograph_srgb8, model, edges, *visibility, cameras);
+  };
 }
 
 }  // namespace groundglass

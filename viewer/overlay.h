@@ -8,6 +8,7 @@
 #include "scene/polygon_model.h"
 #include "scene/visibility.h"
 
+#include <functional>
 #include <vector>
 
 namespace groundglass {
@@ -33,5 +34,10 @@ Image8 DrawOverlay(const Image8& photograph_srgb8,
                    const std::vector<ModelEdge>& edges,
                    const Visibility& visibility,
                    const OverlayCameras& cameras);
+
+// A function that draws one model's edges over photographs of one camera each, measured or
+// corrected. It holds what is visible from where, and the model must outlive it.
+std::function<Image8(const Image8& photograph_srgb8, const Camera& camera, bool is_corrected)>
+MakeEdgeDrawing(const PolygonModel& model);
 
 }  // namespace groundglass

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "scene/camera.h"
+#include "scene/formats/tile_file.h"
 #include "scene/image.h"
-#include "scene/tile_file.h"
 
 #include <span>
 #include <vector>

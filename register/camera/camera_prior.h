@@ -4,7 +4,7 @@
 
 #include "register/camera/parameter_projection.h"
 #include "scene/camera.h"
-#include "scene/lens.h"
+#include "scene/formats/lens.h"
 #include "scene/polygon_model.h"
 #include "scene/registration.h"
 

@@ -3,9 +3,9 @@
 #include "register/camera/control_points.h"
 
 #include "scene/error.h"
+#include "scene/formats/view_io.h"
 #include "scene/frames.h"
 #include "scene/text.h"
-#include "scene/view_io.h"
 
 #include <array>
 #include <cmath>

@@ -20,7 +20,8 @@ struct VerdictOptions {
   // this much in all, nats.
   double min_margin_per_vote = 0.15;
   double min_margin_nats = 20;
-  // The best solution must score at least this for each vote that was cast (docs/accuracy.md).
+  // The best solution must score at least this for each vote that was cast
+  // (docs/measurements/accuracy.md).
   double min_nats_per_vote = 0.2;
   // No parameter may end further than this from its prior, in the prior's sigmas.
   double max_prior_sigmas = 3.5;

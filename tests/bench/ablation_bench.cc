@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "datasets-synthetic/camera_errors.h"
-#include "datasets-synthetic/trials.h"
-#include "datasets-synthetic/truth.h"
+#include "evaluate/camera_errors.h"
+#include "evaluate/trials.h"
+#include "evaluate/truth.h"
 #include "register/register.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/scene_folder.h"
 
 #include <algorithm>
 #include <cstdio>

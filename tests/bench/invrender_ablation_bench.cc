@@ -2,11 +2,11 @@
 // Part of Groundglass.
 // What each part of inverse rendering is worth: the novel views of a scene with known truth, drawn
 // from textures that were baked with all parts, and with one of them left out.
-#include "datasets-synthetic/evaluate.h"
+#include "evaluate/evaluate.h"
+#include "invrender/bake.h"
 #include "invrender/bake_output.h"
-#include "invrender/invrender.h"
-#include "scene/image_io.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/scene_folder.h"
 #include "viewer/renderer.h"
 
 #include <cstdio>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "invrender/invrender.h"
-#include "invrender/photo_pyramid.h"
-#include "scene/colmap_io.h"
-#include "scene/image_io.h"
-#include "scene/osu_io.h"
+#include "invrender/bake.h"
+#include "invrender/photos/face_mask.h"
+#include "invrender/photos/photo_pyramid.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/osu_io.h"
 
 #include <benchmark/benchmark.h>
 #include <opencv2/imgproc.hpp>

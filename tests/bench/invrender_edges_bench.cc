@@ -3,11 +3,12 @@
 // The edges of a texture, eight times enlarged, side by side: looked up as in the thesis (each
 // texel the nearest pixel of one photograph, Thorman 1988, Figure 7), by this project, and the
 // truth.
-#include "datasets-synthetic/truth.h"
+#include "evaluate/truth.h"
+#include "invrender/bake.h"
 #include "invrender/bake_output.h"
-#include "invrender/invrender.h"
-#include "scene/image_io.h"
-#include "scene/scene_folder.h"
+#include "invrender/photos/face_mask.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/scene_folder.h"
 #include "viewer/renderer.h"
 
 #include <algorithm>

@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #include "register/refine_accepted.h"
 #include "register/register.h"
-#include "scene/image_io.h"
-#include "scene/osu_io.h"
-#include "scene/scene_folder.h"
-#include "scene/view_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/osu_io.h"
+#include "scene/formats/scene_folder.h"
+#include "scene/formats/view_io.h"
 
 #include <benchmark/benchmark.h>
 #include <opencv2/imgproc.hpp>

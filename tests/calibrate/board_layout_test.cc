@@ -3,8 +3,8 @@
 // Boards that are numbered, turned and bordered in other ways than ours.
 #include "calibrate/board_layout.h"
 
+#include "scene/formats/image_io.h"
 #include "scene/frames.h"
-#include "scene/image_io.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 

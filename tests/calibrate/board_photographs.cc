@@ -3,7 +3,7 @@
 #include "tests/calibrate/board_photographs.h"
 
 #include "calibrate/tag_detection.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/srgb.h"
 
 #include <opencv2/imgproc.hpp>

@@ -5,7 +5,7 @@
 #include "calibrate/tag_corners.h"
 #include "calibrate/tag_detection.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/srgb.h"
 #include "scene/view_tag.h"
 #include "tests/calibrate/board_photographs.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 // A job is never lost: odd photographs, broken files, runs that are stopped or changed, full disks.
-#include "scene/folder_lock.h"
+#include "scene/formats/folder_lock.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/view_io.h"
 #include "scene/frames.h"
-#include "scene/image_io.h"
-#include "scene/view_io.h"
 #include "tests/cli/program.h"
 #include "tests/support/small_disk.h"
 #include "tests/support/temporary_folder.h"

@@ -4,8 +4,9 @@
 
 #include "datasets-synthetic/occluder_shapes.h"
 #include "datasets-synthetic/occluders.h"
+#include "scene/check_face.h"
+#include "scene/formats/model_io.h"
 #include "scene/frames.h"
-#include "scene/model_io.h"
 #include "scene/view_tag.h"
 #include "scene/visibility.h"
 

@@ -3,7 +3,7 @@
 // No preset is odd: warnings that cry wolf are worse than none.
 #include "datasets-synthetic/planned_scene.h"
 #include "datasets-synthetic/synth.h"
-#include "scene/advice.h"
+#include "scene/advice/advice.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

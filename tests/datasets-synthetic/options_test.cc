@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "datasets-synthetic/recipe.h"
 #include "datasets-synthetic/surface_truth.h"
-#include "datasets-synthetic/trials.h"
+#include "evaluate/trials.h"
 #include "tests/support/spoilt_options.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "datasets-synthetic/synth.h"
-#include "datasets-synthetic/truth.h"
-#include "scene/image_io.h"
-#include "scene/osu_io.h"
+#include "evaluate/truth.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/osu_io.h"
 #include "scene/visibility.h"
 #include "tests/support/temporary_folder.h"
 

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "datasets-synthetic/slide.h"
 
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/srgb.h"
 #include "scene/view_tag.h"
 

@@ -2,12 +2,12 @@
 // Part of Groundglass.
 #include "datasets-synthetic/synth.h"
 
-#include "datasets-synthetic/evaluate.h"
 #include "datasets-synthetic/surface_truth.h"
+#include "evaluate/evaluate.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/scene_folder.h"
-#include "scene/view_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/scene_folder.h"
+#include "scene/formats/view_io.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>

@@ -3,7 +3,7 @@
 // Damaged mesh files give a model or one clear line, never a crash, an endless loop or a demand for
 // all of the machine's memory.
 #include "scene/error.h"
-#include "scene/model_io.h"
+#include "scene/formats/model_io.h"
 #include "tests/fuzz/mutate.h"
 
 #include <gtest/gtest.h>

@@ -3,9 +3,9 @@
 // Damaged text files are read or refused with one clear line; nothing crashes, nothing hangs, and
 // what was read is written and read again as the same.
 #include "scene/error.h"
-#include "scene/lens.h"
-#include "scene/osu_io.h"
-#include "scene/view_io.h"
+#include "scene/formats/lens.h"
+#include "scene/formats/osu_io.h"
+#include "scene/formats/view_io.h"
 #include "tests/fuzz/mutate.h"
 
 #include <gtest/gtest.h>

@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #include "invrender/bake_output.h"
 
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/textured_model_io.h"
+#include "scene/formats/view_io.h"
 #include "scene/srgb.h"
-#include "scene/textured_model_io.h"
-#include "scene/view_io.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "invrender/border_distance.h"
-#include "invrender/invrender.h"
-#include "invrender/photo_pyramid.h"
-#include "invrender/sight_map.h"
-#include "scene/colmap_io.h"
-#include "scene/image_io.h"
-#include "scene/osu_io.h"
+#include "invrender/bake.h"
+#include "invrender/photos/border_distance.h"
+#include "invrender/photos/face_mask.h"
+#include "invrender/photos/photo_pyramid.h"
+#include "invrender/photos/visibility_map.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/osu_io.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
 
@@ -68,7 +69,7 @@ TEST(ComputeBorderDistance, CountsPixelsToWhereAnotherSurfaceBegins) {
   }
 }
 
-TEST(SightMap, AnswersAsThePicturesThatItWasMadeOf) {
+TEST(VisibilityMap, AnswersAsThePicturesThatItWasMadeOf) {
   Image16 labels(37, 21, 1);  // no multiple of its tiles
   Image8 border(37, 21, 1, 60);
   for (int y = 0; y < 21; ++y) {
@@ -77,7 +78,7 @@ TEST(SightMap, AnswersAsThePicturesThatItWasMadeOf) {
       if (x >= 18) *border.At(x, y) = static_cast<uint8_t>(x + y);
     }
   }
-  const SightMap map(labels, border, 50);
+  const VisibilityMap map(labels, border, 50);
   for (int y = 0; y < 21; ++y) {
     for (int x = 0; x < 37; ++x) {
       ASSERT_EQ(map.At(x, y).label, *labels.At(x, y));
@@ -87,7 +88,7 @@ TEST(SightMap, AnswersAsThePicturesThatItWasMadeOf) {
   EXPECT_THAT(map.ShownFaces(6), testing::ElementsAre(0, 0, 1, 0, 1, 0));
 }
 
-TEST(SightMap, TakesLittleHoweverManyFacesMeetInATile) {
+TEST(VisibilityMap, TakesLittleHoweverManyFacesMeetInATile) {
   // Tiles with one to seven faces and with one distance or many.
   Image16 labels(56, 16, 1);
   Image8 border(56, 16, 1, 9);
@@ -97,10 +98,10 @@ TEST(SightMap, TakesLittleHoweverManyFacesMeetInATile) {
       if (y >= 8) *border.At(x, y) = static_cast<uint8_t>(x % 8 + y);
     }
   }
-  const SightMap map(labels, border, 50);
+  const VisibilityMap map(labels, border, 50);
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 56; ++x) {
-      ASSERT_EQ(map.At(x, y), (SightMap::Pixel{*labels.At(x, y), *border.At(x, y)})) << x << y;
+      ASSERT_EQ(map.At(x, y), (VisibilityMap::Pixel{*labels.At(x, y), *border.At(x, y)})) << x << y;
     }
   }
   EXPECT_EQ(map.NumTileBytes(), 4u * 14);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "invrender/charts.h"
-#include "invrender/invrender.h"
-#include "invrender/memory_plan.h"
-#include "invrender/prepared_photo.h"
-#include "invrender/texel_size.h"
-#include "scene/colmap_io.h"
+#include "invrender/bake.h"
+#include "invrender/charts/charts.h"
+#include "invrender/charts/spread_points.h"
+#include "invrender/measure/texel_size.h"
+#include "invrender/photos/prepared_photo.h"
+#include "invrender/plan/memory_plan.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/osu_io.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/osu_io.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
@@ -114,15 +115,10 @@ struct LargeBrick {
     return std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick";
   }
   PreparedPhoto Prepare(int index, const MaskDetail& detail) {
-    return PreparedPhoto(photographs[index],
-                         index,
-                         model,
-                         visibility,
-                         nullptr,
-                         chart_of_face,
-                         options,
-                         detail,
-                         cache);
+    return PreparePhoto(photographs[index],
+                        index,
+                        {model, visibility, nullptr, chart_of_face, options, cache},
+                        detail);
   }
   std::vector<PreparedPhoto> Survey() {
     std::vector<PreparedPhoto> survey;
@@ -143,7 +139,7 @@ TEST(Memory, MasksTakeNoMoreThanASurveyForetells) {
       num_bytes +=
           static_cast<double>(brick.Prepare(i, {.num_halvings = halvings}).Mask().NumBytes());
     }
-    const double foretold = ForetellMaskBytes(survey, halvings);
+    const double foretold = EstimateMaskBytes(survey, halvings);
     EXPECT_LE(num_bytes, foretold) << halvings;
     EXPECT_GE(num_bytes, 0.4 * foretold) << halvings;
     // A pixel takes less than a byte even where it is finest.
@@ -163,8 +159,8 @@ TEST(Memory, CoarseMasksSeeWhatFineOnesSee) {
       for (const int face : brick.charts[i].faces) {
         for (const Eigen::Vector3d& point : SpreadPoints(brick.model, face)) {
           const Eigen::Vector2d on_plane = brick.charts[i].PlanePoint(point);
-          const auto expected = fine.Sight(view, on_plane, face);
-          const auto found = coarse.Sight(view, on_plane, face);
+          const auto expected = fine.Observe(view, on_plane, face);
+          const auto found = coarse.Observe(view, on_plane, face);
           num_seen += expected ? 1 : 0;
           num_different += expected.has_value() != found.has_value() ? 1 : 0;
           if (!expected || !found) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "invrender/invrender.h"
-#include "invrender/tiles.h"
+#include "invrender/bake.h"
+#include "invrender/tiles1988/tiles.h"
 #include "tests/support/spoilt_options.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,16 @@ TEST(InvrenderOptions, CheckNamesEachField) {
                                 gaps,
                                 bits,
                                 earlier,
-                                on_mask] = BakeOptions();
+                                on_mask,
+                                stage_blocks,
+                                stage_sharpness,
+                                stage_grain,
+                                stage_colour,
+                                stage_consistency,
+                                stage_seams,
+                                stage_blend,
+                                stage_dilate,
+                                stage_fill] = BakeOptions();
   ExpectCheckNamesEach<BakeOptions>({
       {"texel_size", [](auto& o) { o.texel_size = kNotANumber; }},
       {"max_page_texels", [](auto& o) { o.max_page_texels = 63; }},
@@ -34,10 +43,206 @@ TEST(InvrenderOptions, CheckNamesEachField) {
       {"frame_margin", [](auto& o) { o.frame_margin = 0.5; }},
       {"max_memory_mb", [](auto& o) { o.max_memory_mb = -1; }},
       {"bits", [](auto& o) { o.bits = 10; }},
+      {"blocks.black", [](auto& o) { o.blocks.black = 0; }},
+      {"sharpness.alike", [](auto& o) { o.sharpness.alike = 2; }},
+      {"grain.dark", [](auto& o) { o.grain.dark = 0; }},
+      {"colour.even_light", [](auto& o) { o.colour.even_light = 0; }},
+      {"consistency.agreeing", [](auto& o) { o.consistency.agreeing = 0; }},
+      {"consistency.palette.bins_per_unit",
+       [](auto& o) { o.consistency.palette.bins_per_unit = 0; }},
+      {"seams.worst", [](auto& o) { o.seams.worst = 0; }},
+      {"blend.ramp_px", [](auto& o) { o.blend.ramp_px = 0; }},
+      {"dilate.slit_texels", [](auto& o) { o.dilate.slit_texels = 0; }},
+      {"fill.radius_texels", [](auto& o) { o.fill.radius_texels = 0; }},
   });
   [[maybe_unused]] const auto& [downsample] = TileOptions();
   ExpectCheckNamesEach<TileOptions>({
       {"downsample", [](auto& o) { o.downsample = 2; }},
+  });
+}
+
+TEST(InvrenderOptions, BlockCheckNamesEachField) {
+  [[maybe_unused]] const auto& [black, burnt, clear_px] = BlockOptions();
+  ExpectCheckNamesEach<BlockOptions>({
+      {"black", [](auto& o) { o.black = 0; }},
+      {"burnt", [](auto& o) { o.burnt = 2; }},
+      {"clear_px", [](auto& o) { o.clear_px = -1; }},
+  });
+}
+
+TEST(InvrenderOptions, SharpnessCheckNamesEachField) {
+  [[maybe_unused]] const auto& [alike,
+                                ordinary_blur_px2,
+                                ordinary_weight,
+                                least_blur_px2,
+                                doubtful,
+                                certain,
+                                detail_floor] = SharpnessOptions();
+  ExpectCheckNamesEach<SharpnessOptions>({
+      {"alike", [](auto& o) { o.alike = -1; }},
+      {"ordinary_blur_px2", [](auto& o) { o.ordinary_blur_px2 = -1; }},
+      {"ordinary_weight", [](auto& o) { o.ordinary_weight = -1; }},
+      {"least_blur_px2", [](auto& o) { o.least_blur_px2 = -1; }},
+      {"doubtful", [](auto& o) { o.doubtful = kNotANumber; }},
+      {"certain", [](auto& o) { o.certain = 2; }},
+      {"detail_floor", [](auto& o) { o.detail_floor = -1; }},
+  });
+}
+
+TEST(InvrenderOptions, GrainCheckNamesEachField) {
+  [[maybe_unused]] const auto& [grain_agreement,
+                                detail_agreement,
+                                calm_one_in,
+                                few_patches,
+                                fewest_patches,
+                                calm_quantile,
+                                prior_patches,
+                                dark,
+                                vignetting_at] = GrainOptions();
+  ExpectCheckNamesEach<GrainOptions>({
+      {"grain_agreement", [](auto& o) { o.grain_agreement = -2; }},
+      {"detail_agreement", [](auto& o) { o.detail_agreement = 0.1; }},
+      {"calm_one_in", [](auto& o) { o.calm_one_in = -1; }},
+      {"few_patches", [](auto& o) { o.few_patches = -1; }},
+      {"fewest_patches", [](auto& o) { o.fewest_patches = -1; }},
+      {"calm_quantile", [](auto& o) { o.calm_quantile = -1; }},
+      {"prior_patches", [](auto& o) { o.prior_patches = -1; }},
+      {"dark", [](auto& o) { o.dark = -1; }},
+      {"vignetting_at", [](auto& o) { o.vignetting_at = -1; }},
+  });
+}
+
+TEST(InvrenderOptions, ColourCheckNamesEachField) {
+  [[maybe_unused]] const auto& [even_light,
+                                fewest_shared,
+                                enough_for_pairs,
+                                enough_of_pair,
+                                most_shared,
+                                vignetting_scale,
+                                vignetting_rounds,
+                                vignetting_prior,
+                                many_blocks,
+                                gain_scales,
+                                gain_prior,
+                                light_rounds,
+                                few_blocks,
+                                enough_for_light,
+                                most_uneven] = ColourOptions();
+  ExpectCheckNamesEach<ColourOptions>({
+      {"even_light", [](auto& o) { o.even_light = -1; }},
+      {"fewest_shared", [](auto& o) { o.fewest_shared = -1; }},
+      {"enough_for_pairs", [](auto& o) { o.enough_for_pairs = -1; }},
+      {"enough_of_pair", [](auto& o) { o.enough_of_pair = -1; }},
+      {"most_shared", [](auto& o) { o.most_shared = -1; }},
+      {"vignetting_scale", [](auto& o) { o.vignetting_scale = -1; }},
+      {"vignetting_rounds", [](auto& o) { o.vignetting_rounds = -1; }},
+      {"vignetting_prior", [](auto& o) { o.vignetting_prior = -1; }},
+      {"many_blocks", [](auto& o) { o.many_blocks = -1; }},
+      {"gain_scales", [](auto& o) { o.gain_scales[10] = 0; }},
+      {"gain_prior", [](auto& o) { o.gain_prior = -1; }},
+      {"light_rounds", [](auto& o) { o.light_rounds = -1; }},
+      {"few_blocks", [](auto& o) { o.few_blocks = -1; }},
+      {"enough_for_light", [](auto& o) { o.enough_for_light = -1; }},
+      {"most_uneven", [](auto& o) { o.most_uneven = -1; }},
+  });
+}
+
+TEST(InvrenderOptions, PaletteCheckNamesEachField) {
+  [[maybe_unused]] const auto& [bins_per_unit,
+                                fewest_counts,
+                                ordinary_share,
+                                unseen_share,
+                                most_surprise] = PaletteOptions();
+  ExpectCheckNamesEach<PaletteOptions>({
+      {"bins_per_unit", [](auto& o) { o.bins_per_unit = -1; }},
+      {"fewest_counts", [](auto& o) { o.fewest_counts = -1; }},
+      {"ordinary_share", [](auto& o) { o.ordinary_share = -1; }},
+      {"unseen_share", [](auto& o) { o.unseen_share = -1; }},
+      {"most_surprise", [](auto& o) { o.most_surprise = -1; }},
+  });
+}
+
+TEST(InvrenderOptions, ConsistencyCheckNamesEachField) {
+  [[maybe_unused]] const auto& [ordinary_difference,
+                                largest_dissent,
+                                agreeing,
+                                palette_weight,
+                                blur_weight,
+                                vote_unevenness,
+                                even_light_preference,
+                                cost_reach,
+                                dissent_reach,
+                                consensus_reach,
+                                majority,
+                                fewest_to_compare,
+                                disputed_weight,
+                                palette] = ConsistencyOptions();
+  ExpectCheckNamesEach<ConsistencyOptions>({
+      {"ordinary_difference", [](auto& o) { o.ordinary_difference = -1; }},
+      {"largest_dissent", [](auto& o) { o.largest_dissent = -1; }},
+      {"agreeing", [](auto& o) { o.agreeing = -1; }},
+      {"palette_weight", [](auto& o) { o.palette_weight = -1; }},
+      {"blur_weight", [](auto& o) { o.blur_weight = -1; }},
+      {"vote_unevenness", [](auto& o) { o.vote_unevenness = -1; }},
+      {"even_light_preference", [](auto& o) { o.even_light_preference = -1; }},
+      {"cost_reach", [](auto& o) { o.cost_reach = -1; }},
+      {"dissent_reach", [](auto& o) { o.dissent_reach = -1; }},
+      {"consensus_reach", [](auto& o) { o.consensus_reach = -1; }},
+      {"majority", [](auto& o) { o.majority = -1; }},
+      {"fewest_to_compare", [](auto& o) { o.fewest_to_compare = -1; }},
+      {"disputed_weight", [](auto& o) { o.disputed_weight = -1; }},
+      {"palette.fewest_counts", [](auto& o) { o.palette.fewest_counts = 0; }},
+  });
+}
+
+TEST(InvrenderOptions, SeamCheckNamesEachField) {
+  [[maybe_unused]] const auto& [worst, side, per_difference, most_different] = SeamOptions();
+  ExpectCheckNamesEach<SeamOptions>({
+      {"worst", [](auto& o) { o.worst = -1; }},
+      {"side", [](auto& o) { o.side = -1; }},
+      {"per_difference", [](auto& o) { o.per_difference = -1; }},
+      {"most_different", [](auto& o) { o.most_different = -1; }},
+  });
+}
+
+TEST(InvrenderOptions, BlendCheckNamesEachField) {
+  [[maybe_unused]] const auto& [clear_px,
+                                ramp_start_px,
+                                ramp_px,
+                                least_border_weight,
+                                enough_chosen,
+                                others_weight,
+                                least_consistency,
+                                negligible,
+                                good_weight,
+                                reach_beyond_px,
+                                farthest_reach] = BlendOptions();
+  ExpectCheckNamesEach<BlendOptions>({
+      {"clear_px", [](auto& o) { o.clear_px = -1; }},
+      {"ramp_start_px", [](auto& o) { o.ramp_start_px = kInfinity; }},
+      {"ramp_px", [](auto& o) { o.ramp_px = -1; }},
+      {"least_border_weight", [](auto& o) { o.least_border_weight = -1; }},
+      {"enough_chosen", [](auto& o) { o.enough_chosen = -1; }},
+      {"others_weight", [](auto& o) { o.others_weight = -1; }},
+      {"least_consistency", [](auto& o) { o.least_consistency = -1; }},
+      {"negligible", [](auto& o) { o.negligible = -1; }},
+      {"good_weight", [](auto& o) { o.good_weight = -1; }},
+      {"reach_beyond_px", [](auto& o) { o.reach_beyond_px = -1; }},
+      {"farthest_reach", [](auto& o) { o.farthest_reach = -1; }},
+  });
+}
+
+TEST(InvrenderOptions, DilateCheckNamesEachField) {
+  [[maybe_unused]] const auto& [slit_texels] = DilateOptions();
+  ExpectCheckNamesEach<DilateOptions>({
+      {"slit_texels", [](auto& o) { o.slit_texels = -1; }},
+  });
+}
+
+TEST(InvrenderOptions, FillCheckNamesEachField) {
+  [[maybe_unused]] const auto& [radius_texels] = FillOptions();
+  ExpectCheckNamesEach<FillOptions>({
+      {"radius_texels", [](auto& o) { o.radius_texels = -1; }},
   });
 }
 

@@ -2,12 +2,13 @@
 // Part of Groundglass.
 // Models as other programs write them, as far as texturing goes: windows cut out by bridges are
 // open, faces that lie twice are one, and numbers stay the file's.
-#include "invrender/charts.h"
-#include "invrender/invrender.h"
+#include "invrender/bake.h"
+#include "invrender/charts/charts.h"
+#include "invrender/photos/face_mask.h"
 #include "invrender/selection.h"
 #include "scene/face_number.h"
-#include "scene/image_io.h"
-#include "scene/model_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/model_io.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "tests/invrender/painted_scene.h"
 
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "scene/srgb.h"
 #include "scene/visibility.h"
 

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/invrender.h"
+#include "invrender/bake.h"
 #include "scene/camera.h"
 #include "scene/image.h"
 #include "scene/polygon_model.h"

@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #include "invrender/selection.h"
 
-#include "scene/atomic_file.h"
-#include "scene/image_io.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/image_io.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "invrender/invrender.h"
+#include "invrender/bake.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
 

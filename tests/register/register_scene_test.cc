@@ -2,9 +2,9 @@
 // Part of Groundglass.
 #include "register/register.h"
 #include "register/registration_output.h"
-#include "scene/colmap_io.h"
-#include "scene/registration_io.h"
-#include "scene/view_io.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/registration_io.h"
+#include "scene/formats/view_io.h"
 #include "tests/register/house.h"
 #include "tests/support/temporary_folder.h"
 

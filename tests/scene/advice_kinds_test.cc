@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 // Kinds of mistakes that the tags alone do not tell, or tell wrongly: the bundled hall with each.
-#include "scene/advice.h"
+#include "scene/advice/advice.h"
 #include "scene/frames.h"
 #include "tests/support/temporary_folder.h"
 

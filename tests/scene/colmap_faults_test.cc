@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "scene/colmap_io.h"
-#include "scene/convert.h"
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/scene_folder.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/convert.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/scene_folder.h"
 #include "tests/support/small_disk.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"

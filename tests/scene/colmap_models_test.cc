@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "scene/colmap_io.h"
-#include "scene/convert.h"
-#include "scene/osu_io.h"
-#include "scene/pose_check.h"
-#include "scene/view_io.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/convert.h"
+#include "scene/formats/osu_io.h"
+#include "scene/formats/pose_check.h"
+#include "scene/formats/view_io.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "scene/image_io.h"
-#include "scene/model_io.h"
-#include "scene/textured_model_io.h"
-#include "scene/view_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/model_io.h"
+#include "scene/formats/textured_model_io.h"
+#include "scene/formats/view_io.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 

@@ -2,11 +2,11 @@
 // Part of Groundglass.
 #include "scene/face_number.h"
 
-#include "scene/convert.h"
 #include "scene/coverage.h"
-#include "scene/model_io.h"
-#include "scene/osu_io.h"
-#include "scene/view_io.h"
+#include "scene/formats/convert.h"
+#include "scene/formats/model_io.h"
+#include "scene/formats/osu_io.h"
+#include "scene/formats/view_io.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 

@@ -4,7 +4,7 @@
 
 #include "scene/face_outline.h"
 #include "scene/feature_edges.h"
-#include "scene/model_io.h"
+#include "scene/formats/model_io.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 // Part of Groundglass.
 #include "scene/model_sigma.h"
 
-#include "scene/model_io.h"
-#include "scene/textured_model_io.h"
-#include "scene/view_io.h"
+#include "scene/formats/model_io.h"
+#include "scene/formats/textured_model_io.h"
+#include "scene/formats/view_io.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 

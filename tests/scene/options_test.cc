@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "scene/check_option.h"
 #include "scene/feature_edges.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "tests/support/spoilt_options.h"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 // Models as other programs write them (tests/data/models).
-#include "scene/convert.h"
+#include "scene/check_face.h"
 #include "scene/face_number.h"
-#include "scene/image_io.h"
-#include "scene/osu_io.h"
-#include "scene/textured_model_io.h"
-#include "scene/view_io.h"
+#include "scene/formats/convert.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/osu_io.h"
+#include "scene/formats/textured_model_io.h"
+#include "scene/formats/view_io.h"
 #include "scene/visibility.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"

@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #include "scene/registration.h"
 
-#include "scene/registration_io.h"
-#include "scene/view_io.h"
+#include "scene/formats/registration_io.h"
+#include "scene/formats/view_io.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
 #include "tests/support/temporary_folder.h"
 
 #include <string>

@@ -2,11 +2,11 @@
 // Part of Groundglass.
 
 // The smaller formats: lens files, coverage.json, and how files are written at all.
-#include "scene/atomic_file.h"
 #include "scene/coverage.h"
 #include "scene/error.h"
-#include "scene/lens.h"
-#include "scene/view_io.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/lens.h"
+#include "scene/formats/view_io.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 

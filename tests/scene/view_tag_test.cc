@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #include "scene/view_tag.h"
 
+#include "scene/formats/view_io.h"
 #include "scene/frames.h"
-#include "scene/view_io.h"
 
 #include <gtest/gtest.h>
 

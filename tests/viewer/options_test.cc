@@ -4,7 +4,6 @@
 #include "viewer/camera_path.h"
 #include "viewer/film.h"
 #include "viewer/renderer.h"
-#include "viewer/report.h"
 
 #include <gtest/gtest.h>
 
@@ -38,10 +37,6 @@ TEST(ViewerOptions, CheckNamesEachField) {
       {"frames_per_second", [](auto& o) { o.frames_per_second = kNotANumber; }},
       {"quality", [](auto& o) { o.quality = 52; }},
       {"ffmpeg", [](auto& o) { o.ffmpeg.clear(); }},
-  });
-  [[maybe_unused]] const auto& [title, picture] = ReportOptions();
-  ExpectCheckNamesEach<ReportOptions>({
-      {"picture_width_px", [](auto& o) { o.picture_width_px = 0; }},
   });
 }
 

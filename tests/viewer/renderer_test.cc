@@ -3,8 +3,8 @@
 #include "viewer/renderer.h"
 
 #include "scene/error.h"
-#include "scene/image_io.h"
-#include "scene/model_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/model_io.h"
 #include "scene/srgb.h"
 #include "scene/visibility.h"
 #include "tests/viewer/sample_models.h"

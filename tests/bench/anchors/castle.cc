@@ -3,9 +3,9 @@
 #include "tests/bench/anchors/castle.h"
 
 #include "scene/error.h"
-#include "scene/image_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/view_io.h"
 #include "scene/text.h"
-#include "scene/view_io.h"
 
 #include <algorithm>
 #include <cstdio>

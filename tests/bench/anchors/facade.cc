@@ -3,8 +3,8 @@
 #include "tests/bench/anchors/facade.h"
 
 #include "datasets-synthetic/synth.h"
-#include "datasets-synthetic/truth.h"
-#include "scene/scene_folder.h"
+#include "evaluate/truth.h"
+#include "scene/formats/scene_folder.h"
 #include "tests/support/temporary_folder.h"
 
 namespace groundglass {

@@ -6,7 +6,7 @@
 #include "register/camera/control_point_posterior.h"
 #include "register/camera/parameter_projection.h"
 #include "register/register.h"
-#include "scene/atomic_file.h"
+#include "scene/formats/atomic_file.h"
 #include "scene/frames.h"
 #include "tests/register/house.h"
 #include "tests/support/temporary_folder.h"

@@ -3,7 +3,7 @@
 #include "register/verdict/overrule.h"
 
 #include "register/register.h"
-#include "scene/select_photographs.h"
+#include "scene/formats/select_photographs.h"
 #include "tests/register/house.h"
 #include "tests/support/thrown_message.h"
 

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/measure/patches.h"
+
+#include "invrender/charts/spread_points.h"
+#include "scene/srgb.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace groundglass {
+namespace {
+
+constexpr size_t kMostSpots = 3000;
+constexpr size_t kMostViews = 6;
+// Pixels longer than this many of the best photograph's say little of fine detail.
+constexpr double kCoarsest = 2;
+constexpr double kClearPx = 3;  // of borders
+
+Eigen::Vector2d SampleInPlane(const Patch& patch, double row, double column) {
+  return patch.corner_in_plane + patch.step * Eigen::Vector2d(column, row);
+}
+
+// One on each of the points that SpreadPoints gives, thinned out evenly; corner_in_plane is the
+// patch's middle for now.
+std::vector<Patch> SpreadSpots(const PolygonModel& model, const std::vector<Chart>& charts) {
+  std::vector<Patch> patches;
+  for (size_t chart = 0; chart < charts.size(); ++chart) {
+    for (const int face : charts[chart].faces) {
+      for (const Eigen::Vector3d& point : SpreadPoints(model, face)) {
+        Patch& patch = patches.emplace_back();
+        patch.chart = static_cast<int>(chart);
+        patch.face = face;
+        patch.corner_in_plane = charts[chart].PlanePoint(point);
+      }
+    }
+  }
+  if (patches.size() <= kMostSpots) return patches;
+  std::vector<Patch> kept;
+  for (size_t i = 0; i < kMostSpots; ++i) kept.push_back(patches[i * patches.size() / kMostSpots]);
+  return kept;
+}
+
+bool ShowsWhole(const PreparedPhoto& photo, const ChartInCamera& in_camera, const Patch& patch) {
+  constexpr double kLast = kSpotSide - 1;
+  for (const double row : {0.0, kLast / 2, kLast}) {
+    for (const double column : {0.0, kLast / 2, kLast}) {
+      const auto sighting = photo.Observe(in_camera, SampleInPlane(patch, row, column), patch.face);
+      if (!sighting || sighting->border_px < kClearPx) return false;
+    }
+  }
+  return true;
+}
+
+// Settles the patch's place and who shows it; no views if fewer than two do.
+void FindViews(const std::vector<Chart>& charts,
+               const std::vector<PreparedPhoto>& photos,
+               Patch& patch) {
+  const Eigen::Vector2d middle = patch.corner_in_plane;
+  const auto in_camera = [&](int photo) {
+    return photos[photo].View(charts[patch.chart], patch.chart);
+  };
+  std::vector<SpotView> views;  // of hundreds of photographs, so that the patch keeps a few only
+  for (int photo = 0; photo < static_cast<int>(photos.size()); ++photo) {
+    const auto sighting = photos[photo].Observe(in_camera(photo), middle, patch.face);
+    if (!sighting || sighting->border_px < kClearPx) continue;
+    const double px_per_unit = std::sqrt(std::abs(sighting->px_from_unit.determinant()));
+    if (!(px_per_unit > 0)) continue;
+    SpotView& view = views.emplace_back();
+    view.photo = photo;
+    view.px_per_unit = px_per_unit;
+    view.step_from_px = px_per_unit * sighting->px_from_unit.inverse();
+  }
+  if (views.size() < 2) return;
+  std::stable_sort(views.begin(), views.end(), [](const auto& a, const auto& b) {
+    return a.px_per_unit > b.px_per_unit;
+  });
+  const double best = views.front().px_per_unit;
+  patch.step = 1 / best;
+  patch.corner_in_plane = middle - Eigen::Vector2d::Constant(patch.step * (kSpotSide - 1) / 2);
+  for (SpotView& view : views) view.step_from_px *= best / view.px_per_unit;
+  std::erase_if(views, [&](const SpotView& view) {
+    return view.px_per_unit * kCoarsest < best ||
+           !ShowsWhole(photos[view.photo], in_camera(view.photo), patch);
+  });
+  if (views.size() < 2) return;
+  if (views.size() > kMostViews) views.resize(kMostViews);
+  patch.views.assign(views.begin(), views.end());
+}
+
+SpotSamples LookAtSpot(const Chart& chart,
+                       const PreparedPhoto& photo,
+                       const PhotoPyramid& pixels,
+                       const Patch& patch) {
+  const ChartInCamera in_camera = photo.View(chart, patch.chart);
+  const Eigen::Array3f luma(0.2126f, 0.7152f, 0.0722f);
+  SpotSamples samples;
+  for (int y = 0; y < kSpotSide; ++y) {
+    for (int x = 0; x < kSpotSide; ++x) {
+      const Eigen::Vector2d image_px = photo.Locate(in_camera, SampleInPlane(patch, y, x));
+      const Eigen::Array3f radiance = pixels.Sample(image_px, Eigen::Matrix2d::Zero(), 1);
+      samples(y, x) = Srgb16FromRadiance(std::min(1.0f, (radiance * luma).sum()));
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::vector<Patch> SamplePatches(const PolygonModel& model,
+                                 const std::vector<Chart>& charts,
+                                 const std::vector<PreparedPhoto>& photos) {
+  std::vector<Patch> patches = SpreadSpots(model, charts);
+  tbb::parallel_for(
+      size_t{0}, patches.size(), [&](size_t i) { FindViews(charts, photos, patches[i]); });
+  std::erase_if(patches, [](const Patch& patch) { return patch.views.empty(); });
+  for (int photo = 0; photo < static_cast<int>(photos.size()); ++photo) {
+    std::vector<std::pair<const Patch*, SpotView*>> wanted;
+    for (Patch& patch : patches) {
+      for (SpotView& view : patch.views) {
+        if (view.photo == photo) wanted.emplace_back(&patch, &view);
+      }
+    }
+    if (wanted.empty()) continue;
+    const std::shared_ptr<const PhotoPyramid> pixels = photos[photo].Pixels();
+    tbb::parallel_for(size_t{0}, wanted.size(), [&](size_t i) {
+      const auto& [patch, view] = wanted[i];
+      view->luma = LookAtSpot(charts[patch->chart], photos[photo], *pixels, *patch);
+    });
+  }
+  return patches;
+}
+
+Eigen::VectorXd SolveBounded(const Eigen::MatrixXd& normal,
+                             const Eigen::VectorXd& right,
+                             double least) {
+  constexpr int kRounds = 200;
+  Eigen::VectorXd x = Eigen::VectorXd::Constant(right.size(), least);
+  for (int round = 0; round < kRounds; ++round) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const double rest = right[i] - normal.col(i).dot(x);
+      x[i] = std::max(least, x[i] + rest / normal(i, i));
+    }
+  }
+  return x;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "invrender/measure/texel_size.h"
+
+#include "invrender/charts/spread_points.h"
+#include "invrender/measure/texel_blocks.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+
+void ChooseTexelSizes(const PolygonModel& model,
+                      const std::vector<PreparedPhoto>& photos,
+                      const BakeOptions& options,
+                      std::vector<Chart>& charts) {
+  // The share of a chart whose best photograph the texels do not blur.
+  constexpr double kKept = 0.75;
+  // A texel's side in pixels of that photograph: texels as large as pixels, looked up between
+  // pixels and shown between texels, would lose a third of the detail on the way.
+  constexpr double kPixelShare = 0.85;
+  const int room = options.max_page_texels - 2 * options.gutter_texels;
+  tbb::parallel_for(size_t{0}, charts.size(), [&](size_t index) {
+    Chart& chart = charts[index];
+    chart.texel_size = 0;
+    const std::vector<int> seeing = FindPhotosOfChart(chart, static_cast<int>(index), photos);
+    std::vector<ChartInCamera> views;
+    for (const int photo : seeing) {
+      views.push_back(photos[photo].View(chart, static_cast<int>(index)));
+    }
+    std::vector<double> best_resolutions;
+    for (const int face : chart.faces) {
+      for (const Eigen::Vector3d& point : SpreadPoints(model, face)) {
+        double best = 0;
+        for (size_t i = 0; i < seeing.size(); ++i) {
+          const auto sighting = photos[seeing[i]].Observe(views[i], chart.PlanePoint(point), face);
+          if (!sighting) continue;
+          best = std::max(best, std::sqrt(std::abs(sighting->px_from_unit.determinant())));
+        }
+        if (best > 0) best_resolutions.push_back(best);
+      }
+    }
+    if (best_resolutions.empty()) return;
+    std::sort(best_resolutions.begin(), best_resolutions.end());
+    const size_t rank =
+        static_cast<size_t>(kKept * static_cast<double>(best_resolutions.size() - 1));
+    double size =
+        options.texel_size > 0 ? options.texel_size : kPixelShare / best_resolutions[rank];
+    size = std::max(size, std::max(chart.width, chart.height) / room);
+    chart.SetTexelSize(size);
+  });
+}
+
+}  // namespace groundglass

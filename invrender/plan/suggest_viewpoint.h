@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/polygon_model.h"
+#include "scene/visibility.h"
+
+#include <Eigen/Dense>
+
+#include <optional>
+
+namespace groundglass {
+
+// From where a place on a face could be photographed: before the face, as square to it as can be,
+// as far as the face is large, with nothing of the model between; at eye level (5.5 ft above the
+// model's lowest point) if that works. Nothing if every such place is hidden or under the ground.
+std::optional<Eigen::Vector3d> SuggestViewpoint(const PolygonModel& model,
+                                                const Visibility& visibility,
+                                                int face,
+                                                const Eigen::Vector3d& target_in_world);
+
+}  // namespace groundglass

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "pipeline/main_job.h"
+
+#include "invrender/bake_output.h"
+#include "pipeline/register_stages.h"
+#include "report/report.h"
+#include "scene/check_option.h"
+#include "scene/error.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/output_folder.h"
+#include "scene/formats/output_stages.h"
+#include "viewer/overlay.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <fstream>
+#include <functional>
+#include <string_view>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 4> kPageFormats = {"jpg", "png", "tif", "exr"};
+
+// What the files of each stage depend on (StageKey).
+struct StageKeys {
+  std::string registration;
+  std::string texture;
+  std::string tiles;
+  std::string stills;
+};
+
+// Everything that goes wrong once the tags are corrected is told, and costs no more than its own
+// stage: what the others make is there.
+class Attempts {
+ public:
+  explicit Attempts(const JobObserver& observer) : observer_(observer) {}
+  void Try(const char* stage, const std::function<void()>& work) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      failures_.push_back(std::string(stage) + ": " + error.what());
+      observer_.Tell(failures_.back());
+    }
+  }
+  const std::vector<std::string>& failures() const { return failures_; }
+
+ private:
+  const JobObserver& observer_;
+  std::vector<std::string> failures_;
+};
+
+// Keeps what earlier runs left for the same keys, removes what they left for others; all of it if
+// nobody knows what it was made with.
+void KeepSame(const StageKeys& keys, bool is_known, OutputStages& stages) {
+  const auto keep = [&](const char* stage, const std::string& key) {
+    stages.KeepOnly(stage, is_known ? key : "");
+  };
+  keep(kRegisterStage, keys.registration);
+  keep(kOverlayStage, keys.registration);
+  keep(kTextureStage, keys.texture);
+  keep(kTilesStage, keys.tiles);
+  keep(kStillsStage, keys.stills);
+  // It tells of all the others, and is always made again.
+  stages.KeepOnly(kReportStage, "");
+  stages.Write();
+}
+
+// They are taken on the way from one photograph's viewpoint to the next, so it takes two.
+std::string WhyNoStills(const std::vector<BakePhotograph>& photographs, const fs::path& out) {
+  return "no pictures from new viewpoints: they are drawn on the way from one photograph's "
+         "viewpoint "
+         "to the next, and only " +
+         photographs.front().name + " has a camera; groundglass render " + out.string() +
+         " --view FILE.view -o still.png draws one from wherever you like";
+}
+
+// Of a texture that an earlier run has made.
+std::optional<double> ReadCoveredShare(const fs::path& coverage_file) {
+  std::ifstream in(coverage_file);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object() || !json.contains("covered_share")) return std::nullopt;
+  const auto& share = json["covered_share"];
+  return share.is_number() ? std::optional(share.get<double>()) : std::nullopt;
+}
+
+}  // namespace
+
+void MainJobOptions::Check() const {
+  registering.Check();
+  baking.Check();
+  tiles.options.Check();
+  const std::string path = "main job options: ";
+  if (std::find(kPageFormats.begin(), kPageFormats.end(), page_format) == kPageFormats.end()) {
+    throw OptionError(path + "page_format", "must be jpg, png, tif or exr, not " + page_format);
+  }
+  if (baking.bits == 16 && page_format == "jpg") {
+    throw OptionError(path + "page_format", "must be png, tif or exr with 16 bits, not jpg");
+  }
+  CheckFromTo(num_stills, 0, 100, path + "num_stills");
+}
+
+MainJobResult RunMainJob(const Scene& scene,
+                         const fs::path& out,
+                         const MainJobOptions& options,
+                         const JobObserver& observer) {
+  options.Check();
+  CheckSelection(options.selection, scene);
+  const FolderLock lock = PrepareOutputFolder(out);
+  const MainJobTexts texts = options.texts.value_or(MainJobTexts());
+  const StageInputs inputs = ReadRegistrationInputs(scene, texts.registering);
+  const StageInputs texture_inputs = ReadTextureInputs(scene, texts.texture);
+  const StageInputs tiles_inputs = ReadStageOptions(texts.tiles);
+  const StageInputs stills_inputs = ReadStageOptions(texts.stills);
+  StageKeys keys;
+  keys.registration = RegistrationKey(options.seed, inputs);
+  keys.texture = StageKey(kTextureStage, keys.registration, texture_inputs);
+  keys.tiles = StageKey(kTilesStage, keys.texture, tiles_inputs);
+  keys.stills = StageKey(kStillsStage, keys.texture, stills_inputs);
+  OutputStages stages(
+      out,
+      MakeManifest("run", options.seed, {inputs, texture_inputs, tiles_inputs, stills_inputs}));
+  KeepSame(keys, options.texts.has_value(), stages);
+
+  TellChanged(stages, {kRegisterStage, kOverlayStage, kTextureStage, kStillsStage}, observer);
+  if (options.tiles.form != TilesToWrite::Form::kNone) {
+    TellChanged(stages, {kTilesStage}, observer);
+  }
+  MainJobResult result;
+  result.registered = EnsureRegistered(
+      scene, options.lens, options.registering, out, keys.registration, stages, observer);
+  if (observer.registered) observer.registered(result.registered);
+  const std::vector<Registration>& registrations = result.registered.registrations;
+  Attempts attempts(observer);
+  attempts.Try("overlays", [&] {
+    EnsureOverlays(scene, result.registered, out, keys.registration, stages, observer);
+  });
+
+  std::vector<BakePhotograph> photographs =
+      SelectPhotographs(scene, registrations, options.selection.accepted_only);
+  bool is_narrowed = false;
+  attempts.Try("texture", [&] {
+    result.mask_faults = NarrowPhotographs(options.selection, scene, photographs);
+    is_narrowed = true;
+  });
+  if (photographs.empty()) {
+    observer.Tell(
+        "no photograph is left to texture with: none of those that are not excluded could be "
+        "registered");
+  } else if (is_narrowed) {
+    attempts.Try("texture", [&] {
+      if (stages.IsComplete(kTextureStage, keys.texture)) {
+        observer.Keep(kTextureStage);
+        result.covered_share = ReadCoveredShare(out / "coverage.json");
+        return;
+      }
+      const BakeResult bake = BakeAndWrite(scene,
+                                           photographs,
+                                           options.baking,
+                                           options.page_format,
+                                           out,
+                                           keys.texture,
+                                           stages,
+                                           observer);
+      result.covered_share = bake.coverage.CoveredShare();
+      if (observer.textured) observer.textured(*result.covered_share);
+    });
+    attempts.Try("tiles", [&] {
+      EnsureTiles(scene, photographs, options.tiles, out, keys.tiles, stages, observer);
+    });
+    attempts.Try("pictures from new viewpoints", [&] {
+      if (!stages.IsComplete(kTextureStage, keys.texture)) return;
+      result.stills =
+          EnsureStills(registrations, options.num_stills, out, keys.stills, stages, observer);
+      if (result.stills.width == 0 && options.num_stills > 0) {
+        result.remarks.push_back(WhyNoStills(photographs, out));
+      }
+    });
+  }
+  if (options.report) {
+    attempts.Try("report", [&] {
+      stages.Begin(kReportStage, keys.registration, {"report.html"});
+      observer.Begin(kReportStage);
+      ReportOptions report;
+      report.draw_edges = MakeEdgeDrawing(scene.model);
+      WriteFileAtomically(out / "report.html", MakeReport(out, &scene, report));
+      stages.Finish(kReportStage);
+    });
+  }
+  result.failures = attempts.failures();
+  return result;
+}
+
+}  // namespace groundglass

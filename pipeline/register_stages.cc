@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "pipeline/register_stages.h"
+
+#include "register/register.h"
+#include "register/registration_output.h"
+#include "scene/error.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/registration_io.h"
+#include "viewer/overlay.h"
+
+#include <tbb/parallel_for.h>
+
+#include <mutex>
+#include <optional>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRegistrationFile = "registration.json";
+
+std::string OverlayFile(const std::string& name) { return "overlays/" + name + ".jpg"; }
+
+// What an earlier run found for these photographs, if it can be read.
+std::optional<RegisteredScene> ReadRegistered(const Scene& scene, const fs::path& file) {
+  RegisteredScene registered;
+  try {
+    registered = {ReadRegistrations(file), ReadModelErrors(file), ReadRegistrationWarnings(file)};
+  } catch (const Error&) {
+    return std::nullopt;  // somebody has changed it: it is made again
+  }
+  const std::vector<Registration>& registrations = registered.registrations;
+  if (registrations.size() != scene.photographs.size() + scene.unreadable.size()) {
+    return std::nullopt;
+  }
+  for (size_t i = 0; i < scene.photographs.size(); ++i) {
+    if (registrations[i].name != scene.photographs[i].name) return std::nullopt;
+  }
+  return registered;
+}
+
+}  // namespace
+
+void TellChanged(const OutputStages& stages,
+                 const std::vector<std::string>& names,
+                 const JobObserver& observer) {
+  for (const std::string& name : names) {
+    for (const std::string& file : stages.FindChanged(name)) {
+      observer.Tell(file + " has changed since it was written; it is made again");
+    }
+  }
+}
+
+RegisteredScene EnsureRegistered(const Scene& scene,
+                                 const std::optional<Lens>& lens,
+                                 const RegisterOptions& options,
+                                 const fs::path& out,
+                                 const std::string& key,
+                                 OutputStages& stages,
+                                 const JobObserver& observer) {
+  if (stages.Has(kRegisterStage, key, kRegistrationFile)) {
+    if (std::optional<RegisteredScene> kept = ReadRegistered(scene, out / kRegistrationFile)) {
+      observer.Keep(kRegisterStage);
+      if (!stages.IsComplete(kRegisterStage, key)) {
+        WriteRegistrationOutput(scene, *kept, out);
+        stages.Finish(kRegisterStage);
+      }
+      return *std::move(kept);
+    }
+  }
+  std::vector<std::string> files = {
+      kRegistrationFile, "cameras/cameras.txt", "cameras/images.txt", "cameras/points3D.txt"};
+  for (const Photograph& photograph : scene.photographs) {
+    files.push_back("views/" + photograph.name + ".view");
+  }
+  stages.Begin(kRegisterStage, key, files);
+  const RegisteredScene registered =
+      RegisterScene(scene, lens, options, observer.Begin(kRegisterStage));
+  WriteRegistrationOutput(scene, registered, out);
+  stages.Finish(kRegisterStage);
+  return registered;
+}
+
+void EnsureOverlays(const Scene& scene,
+                    const RegisteredScene& registered,
+                    const fs::path& out,
+                    const std::string& key,
+                    OutputStages& stages,
+                    const JobObserver& observer) {
+  if (stages.IsComplete(kOverlayStage, key)) {
+    observer.Keep(kOverlayStage);
+    return;
+  }
+  std::vector<std::string> files;
+  std::vector<int> wanted;
+  for (size_t i = 0; i < scene.photographs.size(); ++i) {
+    if (registered.registrations[i].verdict == Verdict::kUnreadable) continue;
+    files.push_back(OverlayFile(scene.photographs[i].name));
+    if (!stages.Has(kOverlayStage, key, files.back())) wanted.push_back(static_cast<int>(i));
+  }
+  stages.Begin(kOverlayStage, key, files);
+  const Progress progress = observer.Begin(kOverlayStage);
+  const std::vector<ModelEdge> edges = FindModelEdges(scene.model);
+  const Visibility visibility(scene.model);
+  std::mutex mutex;
+  int done = 0;
+  tbb::parallel_for(size_t{0}, wanted.size(), [&](size_t w) {
+    const int i = wanted[w];
+    const Registration& registration = registered.registrations[i];
+    const Camera measured = registration.MeasuredCamera();
+    const Camera corrected = registration.CorrectedCamera();
+    const bool is_corrected = HasCorrection(registration.verdict);
+    WriteSrgb8(out / OverlayFile(registration.name),
+               DrawOverlay(ReadSrgb8(scene.photographs[i].image_file),
+                           scene.model,
+                           edges,
+                           visibility,
+                           measured,
+                           is_corrected ? &corrected : nullptr));
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) progress(done, static_cast<int>(wanted.size()), registration.name);
+  });
+  stages.Finish(kOverlayStage);
+}
+
+}  // namespace groundglass

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "pipeline/job_observer.h"
+#include "register/register.h"
+#include "scene/formats/output_stages.h"
+#include "scene/formats/scene_folder.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// The stages that `register` and the main job share. `key`: StageKey of the registration's inputs.
+// What is there already with this key is kept.
+constexpr const char* kRegisterStage = "register";
+constexpr const char* kOverlayStage = "overlays";
+
+// Tells the files of these stages that somebody has changed since they were written, which are made
+// again.
+void TellChanged(const OutputStages& stages,
+                 const std::vector<std::string>& names,
+                 const JobObserver& observer);
+
+// Corrected tags: views/, registration.json and cameras/.
+RegisteredScene EnsureRegistered(const Scene& scene,
+                                 const std::optional<Lens>& lens,
+                                 const RegisterOptions& options,
+                                 const std::filesystem::path& out,
+                                 const std::string& key,
+                                 OutputStages& stages,
+                                 const JobObserver& observer = {});
+
+// overlays/: the model's edges over each photograph.
+void EnsureOverlays(const Scene& scene,
+                    const RegisteredScene& registered,
+                    const std::filesystem::path& out,
+                    const std::string& key,
+                    OutputStages& stages,
+                    const JobObserver& observer = {});
+
+}  // namespace groundglass

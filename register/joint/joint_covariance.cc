@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/joint/joint_covariance.h"
+
+#include "register/edges/edge_clusters.h"
+#include "register/edges/residual_spread.h"
+#include "register/joint/normal_equations.h"
+#include "register/refine/systematic_error.h"
+
+#include <tbb/parallel_for.h>
+
+#include <map>
+#include <utility>
+
+namespace groundglass {
+namespace {
+
+// All parameter blocks, in the order of their columns. The state's arrays are the problem's own.
+std::vector<double*> BlocksOf(JointState& state, const ceres::Problem& problem) {
+  std::vector<double*> blocks;
+  const auto add = [&](auto& values) { blocks.push_back(values.data()); };
+  const auto add_edge = [&](MovingEdge& edge) {
+    if (problem.HasParameterBlock(edge.displacement.data())) add(edge.displacement);
+  };
+  for (MovingEdge& edge : state.edges) add_edge(edge);
+  add_edge(state.ground);
+  for (MovingPhotograph& moving : state.moving) add(moving.own);
+  for (LensParameters& lens : state.lenses) add(lens);
+  return blocks;
+}
+
+// What all edges may lie off together (WhitenedSystematicModes).
+Eigen::MatrixXd SystematicModes(const NormalEquations& equations,
+                                const JointState& state,
+                                const SolvedTogether& solved) {
+  Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(equations.Residuals().size(), kNumSystematicModes);
+  for (size_t i = 0; i < state.runs.size(); ++i) {
+    const auto [first, size] = equations.RowsOfCosts().at(solved.edge_costs[i]);
+    const CameraPrior& prior = state.photographs[state.runs[i].photograph].prior;
+    modes.middleRows(first, size) =
+        WhitenedSystematicModes(state.runs[i].samples, prior.width_px, prior.height_px);
+  }
+  return modes;
+}
+
+// Where edges of a cluster err together, what is left of them does not average out: how far the
+// solution would move without each cluster in each photograph (the jackknife by clusters, CR3: Bell
+// and McCaffrey, Survey Methodology 2002). What is left alone is too little where a cluster decides
+// much: the camera has followed it.
+Eigen::MatrixXd LeaveOutUpdates(const NormalEquations& equations,
+                                const JointState& state,
+                                const SolvedTogether& solved) {
+  const std::vector<int> clusters =
+      FindEdgeClusters(state.edge_model.model, state.edge_model.edges);
+  std::map<std::pair<size_t, int>, std::vector<NormalEquations::Rows>> rows_of_cluster;
+  for (size_t i = 0; i < state.runs.size(); ++i) {
+    rows_of_cluster[{state.runs[i].photograph, clusters[state.runs[i].edge]}].push_back(
+        equations.RowsOfCosts().at(solved.edge_costs[i]));
+  }
+  std::vector<const std::vector<NormalEquations::Rows>*> left_out;
+  for (const auto& [cluster, rows] : rows_of_cluster) left_out.push_back(&rows);
+  Eigen::MatrixXd moves(equations.NumColumns(), static_cast<Eigen::Index>(left_out.size()));
+  tbb::parallel_for(size_t{0}, left_out.size(), [&](size_t i) {
+    moves.col(static_cast<Eigen::Index>(i)) = equations.LeaveOutUpdate(*left_out[i]);
+  });
+  return moves;
+}
+
+// How a photograph's matched samples scatter about the model's edges as the model has them.
+std::optional<ResidualSpread> SpreadOf(size_t p, const JointState& state) {
+  const ParameterProjection projection = state.ProjectionOf(state.moving[p]);
+  std::vector<WeightedValue> residuals;
+  for (const MatchedRun& run : state.runs) {
+    if (run.photograph != p) continue;
+    for (const AlignedSample& sample : run.samples) {
+      const auto projected = projection.Project(sample.point_in_world);
+      if (!projected) continue;
+      residuals.push_back(
+          {sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px,
+           sample.precision});
+    }
+  }
+  if (residuals.empty()) return std::nullopt;
+  return MeasureSpread(std::move(residuals));
+}
+
+}  // namespace
+
+JointRefinement SummariseTogether(JointState& state, SolvedTogether& solved) {
+  const NormalEquations equations(*solved.problem, BlocksOf(state, *solved.problem));
+  const Eigen::MatrixXd by_mode =
+      equations.LinearResponse(SystematicModes(equations, state, solved).sparseView());
+  const Eigen::MatrixXd by_cluster = LeaveOutUpdates(equations, state, solved);
+
+  JointRefinement joint;
+  constexpr int kNumParts = kNumCameraParameters + kNumLensParameters;
+  for (const MovingPhotograph& moving : state.moving) {
+    const Eigen::Index own = equations.ColumnOf(moving.own.data());
+    const Eigen::Index lens = equations.ColumnOf(state.lenses[moving.lens].data());
+    // Of sizes known at run time only: products of each fixed size take the compiler seconds.
+    Eigen::VectorXd parts(kNumParts);
+    parts << moving.own, state.lenses[moving.lens];
+    const auto rows_of_parts = [&](const Eigen::MatrixXd& columns) {
+      Eigen::MatrixXd rows(kNumParts, columns.cols());
+      rows << columns.middleRows<kNumCameraParameters>(own),
+          columns.middleRows<kNumLensParameters>(lens);
+      return rows;
+    };
+    Eigen::MatrixXd covariance(kNumParts, kNumParts);
+    covariance << rows_of_parts(equations.CovarianceColumns(own, kNumCameraParameters)),
+        rows_of_parts(equations.CovarianceColumns(lens, kNumLensParameters));
+    const Eigen::MatrixXd shared = rows_of_parts(by_mode);
+    const Eigen::MatrixXd cluster = rows_of_parts(by_cluster);
+    covariance += shared * shared.transpose() + cluster * cluster.transpose();
+
+    const Eigen::MatrixXd whole = moving.prior.whole_from_parts;
+    joint.photographs.push_back({whole * parts,
+                                 whole * covariance * whole.transpose(),
+                                 moving.num_matched,
+                                 SpreadOf(joint.photographs.size(), state)});
+  }
+  for (size_t number = 0; number < state.edges.size(); ++number) {
+    if (state.edges[number].num_photographs == 0) continue;
+    const MovingEdge& mover = state.MoverOf(static_cast<int>(number));
+    const Eigen::Index column = equations.ColumnOf(mover.displacement.data());
+    const Eigen::Matrix2d covariance = equations.CovarianceColumns(column, 2).middleRows<2>(column);
+    joint.displacements.push_back({static_cast<int>(number),
+                                   mover.frame.Displacement(mover.displacement, -1),
+                                   mover.frame.Displacement(mover.displacement, 1),
+                                   mover.frame.across * covariance * mover.frame.across.transpose(),
+                                   state.edges[number].num_photographs});
+  }
+  return joint;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/joint/joint_options.h"
+
+#include "scene/check_option.h"
+
+namespace groundglass {
+
+void JointOptions::Check(const std::string& path) const {
+  CheckAbove(common_offset_sigmas, 0, path + "common_offset_sigmas");
+  CheckAbove(common_turn_sigmas, 0, path + "common_turn_sigmas");
+  CheckAbove(widest_offset_sigmas, 0, path + "widest_offset_sigmas");
+  CheckAbove(ground_level_sigmas, 0, path + "ground_level_sigmas");
+  own.Check(path + "own.");
+  CheckAbove(own_degrees_of_freedom, 0, path + "own_degrees_of_freedom");
+  CheckAbove(least_own_offset_sigmas, 0, path + "least_own_offset_sigmas");
+  CheckAtLeast(most_own_offset_sigmas, least_own_offset_sigmas, path + "most_own_offset_sigmas");
+  CheckAbove(least_shared_offset_sigmas, 0, path + "least_shared_offset_sigmas");
+  CheckAtLeast(
+      most_shared_offset_sigmas, least_shared_offset_sigmas, path + "most_shared_offset_sigmas");
+  CheckFromTo(own_k1_share, 1e-9, 1, path + "own_k1_share");
+  CheckFromTo(own_view_angle_share, 1e-9, 1, path + "own_view_angle_share");
+  CheckFromTo(own_aspect_share, 1e-9, 1, path + "own_aspect_share");
+  CheckFromTo(num_rounds, 1, 1000, path + "num_rounds");
+  matching.Check(path + "matching.");
+  CheckAtLeast(spare_range, 1, path + "spare_range");
+  CheckAtLeast(start_range_px, matching.final_range_px, path + "start_range_px");
+  CheckFromTo(shrink, 0.01, 0.99, path + "shrink");
+  CheckFromTo(min_noise_px, 1e-6, matching.final_range_px / 2, path + "min_noise_px");
+}
+
+}  // namespace groundglass

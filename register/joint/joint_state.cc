@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/joint/joint_state.h"
+
+#include "scene/least_norm.h"
+#include "scene/model_sigma.h"
+
+#include <algorithm>
+
+namespace groundglass {
+namespace {
+
+EdgeFrame FrameOfEdge(double model_sigma, const ModelEdge& edge, const JointOptions& options) {
+  const double scale_units = options.common_offset_sigmas * model_sigma;
+  const Eigen::Vector3d direction = (edge.end_in_world - edge.start_in_world).normalized();
+  const Eigen::Vector3d first = direction.unitOrthogonal();
+  EdgeFrame frame;
+  frame.across.col(0) = scale_units * first;
+  frame.across.col(1) = scale_units * direction.cross(first);
+  frame.turn_ratio = options.common_turn_sigmas / options.common_offset_sigmas;
+  return frame;
+}
+
+// All edges on the ground as one: soil and plants hide the foot of every wall alike.
+EdgeFrame FrameOfGround(const PolygonModel& model, const JointOptions& options) {
+  EdgeFrame frame;
+  frame.across(2, 0) =
+      options.ground_level_sigmas * std::max(ModelSigma(model), DefaultModelSigma(model));
+  frame.turn_ratio = 0;
+  return frame;
+}
+
+// Each lens starts at the mean of what its photographs found by themselves.
+std::vector<LensParameters> StartLenses(const JointState& state) {
+  int num_lenses = 0;
+  for (const MovingPhotograph& moving : state.moving)
+    num_lenses = std::max(num_lenses, moving.lens + 1);
+  std::vector<LensParameters> lenses(num_lenses, LensParameters::Zero());
+  std::vector<int> counts(num_lenses, 0);
+  for (size_t p = 0; p < state.moving.size(); ++p) {
+    const CameraParameters change = state.photographs[p].prior.root * state.photographs[p].whitened;
+    const auto& lens_root = state.moving[p].prior.lens_root;
+    lenses[state.moving[p].lens] += SolveLeastNorm(lens_root, change);
+    ++counts[state.moving[p].lens];
+  }
+  for (int i = 0; i < num_lenses; ++i) lenses[i] /= std::max(1, counts[i]);
+  return lenses;
+}
+
+}  // namespace
+
+JointState::JointState(const EdgeModel& edge_model_,
+                       const std::vector<AlignedPhotograph>& photographs_,
+                       const std::vector<int>& lens_of_photograph,
+                       const JointOptions& options)
+    : edge_model(edge_model_),
+      photographs(photographs_),
+      own_bias(options.own),
+      edges(edge_model_.edges.size()) {
+  ground.frame = FrameOfGround(edge_model.model, options);
+  const LensParameters own_shares(
+      options.own_view_angle_share, options.own_aspect_share, options.own_k1_share);
+  for (size_t p = 0; p < photographs.size(); ++p) {
+    const AlignedPhotograph& photograph = photographs[p];
+    moving.push_back({SplitIntoOwnAndLens(photograph.prior, own_shares),
+                      photograph.whitened,
+                      lens_of_photograph[p],
+                      photograph.noise_px,
+                      0});
+    for (const CandidateSample& found : photograph.found) {
+      const int edge = found.sample.edge;
+      edges[edge].frame = FrameOfEdge(edge_model.sigma, edge_model.edges[edge], options);
+    }
+  }
+  lenses = StartLenses(*this);
+}
+
+}  // namespace groundglass

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "register/camera/split_prior.h"
+#include "register/edges/aligned_sample.h"
+#include "register/edges/edge_samples.h"
+#include "register/joint/joint_refinement.h"
+#include "register/joint/shared_edge_cost.h"
+
+#include <Eigen/Dense>
+
+#include <vector>
+
+namespace groundglass {
+
+// A model edge as the solve moves it.
+struct MovingEdge {
+  EdgeFrame frame;
+  Eigen::Vector4d displacement = Eigen::Vector4d::Zero();  // in units of the frame's scale
+  int num_photographs = 0;                                 // that matched it in the last round
+};
+
+// A photograph as the solve moves it.
+struct MovingPhotograph {
+  SplitPrior prior;
+  CameraParameters own = CameraParameters::Zero();
+  int lens = 0;
+  double noise_px = 0;
+  int num_matched = 0;
+};
+
+// One run of samples of one edge in one photograph, matched.
+struct MatchedRun {
+  size_t photograph = 0;
+  int edge = -1;
+  std::vector<AlignedSample> samples;
+};
+
+// All that the joint solve moves, and what was matched last. Ceres knows its arrays by their
+// addresses: it stays where it is once a problem has been made of it.
+struct JointState {
+  JointState(const EdgeModel& edge_model_,
+             const std::vector<AlignedPhotograph>& photographs_,
+             const std::vector<int>& lens_of_photograph,
+             const JointOptions& options);
+
+  // What moves an edge: its own displacement, or the ground's.
+  const MovingEdge& MoverOf(int edge) const {
+    return edge_model.tolerances[edge].on_ground ? ground : edges[edge];
+  }
+  MovingEdge& MoverOf(int edge) {
+    return edge_model.tolerances[edge].on_ground ? ground : edges[edge];
+  }
+  ParameterProjection ProjectionOf(const MovingPhotograph& photograph) const {
+    return photograph.prior.ProjectionAt(photograph.own, lenses[photograph.lens]);
+  }
+
+  const EdgeModel& edge_model;
+  const std::vector<AlignedPhotograph>& photographs;
+  EdgeBias own_bias;                     // of an edge in one photograph, its size as found so far
+  std::vector<MovingPhotograph> moving;  // for each photograph
+  std::vector<LensParameters> lenses;
+  std::vector<MovingEdge> edges;  // for each of EdgeModel::edges
+  MovingEdge ground;
+  std::vector<MatchedRun> runs;
+};
+
+}  // namespace groundglass

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/joint/solve_together.h"
+
+#include "register/camera/standard_normal_cost.h"
+#include "register/joint/shared_edge_cost.h"
+#include "scene/error.h"
+#include "scene/text.h"
+
+#include <ceres/ceres.h>
+
+namespace groundglass {
+namespace {
+
+// One cost for each run of matched samples.
+SolvedTogether StartProblem(JointState& state) {
+  SolvedTogether solved;
+  solved.problem = std::make_unique<ceres::Problem>();
+  for (const MatchedRun& run : state.runs) {
+    MovingPhotograph& moving = state.moving[run.photograph];
+    MovingEdge& edge = state.MoverOf(run.edge);
+    solved.edge_costs.push_back(
+        solved.problem->AddResidualBlock(new SharedEdgeCost(run.samples, moving.prior, edge.frame),
+                                         nullptr,
+                                         moving.own.data(),
+                                         state.lenses[moving.lens].data(),
+                                         edge.displacement.data()));
+  }
+  return solved;
+}
+
+// Adds what is known of each block before; returns the order in which blocks are eliminated.
+std::shared_ptr<ceres::ParameterBlockOrdering> AddPriors(const JointOptions& options,
+                                                         JointState& state,
+                                                         ceres::Problem& problem) {
+  // Ceres orders the blocks of a group by their addresses: each group is one array, so that the
+  // order, and with it the rounding, is the same in every run.
+  auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  if (problem.HasParameterBlock(state.ground.displacement.data())) {
+    problem.AddResidualBlock(new StandardNormalCost<4>, nullptr, state.ground.displacement.data());
+    ordering->AddElementToGroup(state.ground.displacement.data(), 1);
+  }
+  for (MovingEdge& edge : state.edges) {
+    double* block = edge.displacement.data();
+    if (!problem.HasParameterBlock(block)) continue;
+    // Tails end somewhere: no building is off by a room.
+    const double widest = options.widest_offset_sigmas / options.common_offset_sigmas;
+    problem.AddResidualBlock(new StandardNormalCost<4>, new ceres::CauchyLoss(1), block);
+    problem.AddResidualBlock(
+        new StandardNormalCost<4>,
+        new ceres::ScaledLoss(nullptr, 1 / (widest * widest), ceres::TAKE_OWNERSHIP),
+        block);
+    ordering->AddElementToGroup(block, 0);
+  }
+  for (MovingPhotograph& moving : state.moving) {
+    problem.AddResidualBlock(
+        new StandardNormalCost<kNumCameraParameters>, nullptr, moving.own.data());
+    ordering->AddElementToGroup(moving.own.data(), 2);
+  }
+  for (LensParameters& lens : state.lenses) {
+    problem.AddResidualBlock(new StandardNormalCost<kNumLensParameters>, nullptr, lens.data());
+    ordering->AddElementToGroup(lens.data(), 3);
+  }
+  return ordering;
+}
+
+}  // namespace
+
+SolvedTogether SolveTogether(const JointOptions& options, JointState& state) {
+  SolvedTogether solved = StartProblem(state);
+  ceres::Solver::Options solver;
+  solver.linear_solver_ordering = AddPriors(options, state, *solved.problem);
+  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  solver.max_num_iterations = 6;
+  solver.num_threads = 1;
+  solver.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, solved.problem.get(), &summary);
+  if (!summary.IsSolutionUsable()) {
+    throw Error("register: the photographs' common solution was not found: " +
+                OneLine(summary.message));
+  }
+  return solved;
+}
+
+}  // namespace groundglass

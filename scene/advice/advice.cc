@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/advice/advice.h"
+
+#include "scene/advice/advice_judge.h"
+#include "scene/advice/advice_parts.h"
+
+#include <array>
+#include <cstdio>
+#include <optional>
+
+namespace groundglass {
+
+std::string FormatAdvice(const Advice& advice) {
+  return advice.subject + ": " + advice.message + "; " + advice.remedy;
+}
+
+std::string ShellWord(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  const std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,:@%=";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string TagFile(const Scene& scene, const Photograph& photograph) {
+  return (photograph.view_file.empty() ? scene.folder / "tags.csv" : photograph.view_file).string();
+}
+
+std::string ListNames(const std::vector<std::string>& names) {
+  constexpr size_t kMost = 5;
+  std::string list;
+  for (size_t i = 0; i < names.size() && i < kMost; ++i) {
+    const bool is_last = i + 1 == names.size();
+    list += (i == 0 ? "" : is_last ? " and " : ", ") + names[i];
+  }
+  if (names.size() > kMost) list += " and " + std::to_string(names.size() - kMost) + " more";
+  return list;
+}
+
+std::string FormatLength(double length, LengthUnit unit) {
+  std::array<char, 80> text;
+  if (unit == LengthUnit::kMetre) {
+    std::snprintf(text.data(), text.size(), "%.4g m", length);
+  } else {
+    std::snprintf(text.data(),
+                  text.size(),
+                  "%.4g %s (%.3g m)",
+                  length,
+                  UnitName(unit).c_str(),
+                  length * MetresPerUnit(unit));
+  }
+  return text.data();
+}
+
+bool IsImplausible(const Standpoint& standpoint) {
+  return standpoint.model_share < 0.01 || standpoint.is_inside || standpoint.is_below_ground;
+}
+
+bool IsPlausible(const Standpoint& standpoint) {
+  return standpoint.model_share >= 0.04 && !standpoint.is_inside && !standpoint.is_below_ground &&
+         standpoint.lookat_error <= 0.2 && standpoint.apparent_size > 0.08 &&
+         standpoint.size_share > 0.01;
+}
+
+std::vector<Advice> FindOddities(const Scene& scene,
+                                 const ModelOptions& options,
+                                 bool with_pictures) {
+  std::vector<Advice> found;
+  if (scene.model.faces.empty()) {
+    AdviseOnUnreadModel(scene, options, found);
+    return found;
+  }
+  const Visibility visibility(scene.model);
+  AdviceContext context{scene, options, ComputeBounds(scene.model), visibility, {}, found};
+  for (const Photograph& photograph : scene.photographs) {
+    context.standpoints.push_back(
+        FindStandpoint(context.bounds, visibility, scene.model, photograph.tag, photograph.size));
+  }
+  std::optional<PictureJudge> pictures;
+  if (with_pictures) pictures.emplace(scene);
+  const PictureJudge* judge = with_pictures ? &*pictures : nullptr;
+  const Misreading misreading = AdviseOnReading(context, judge);
+  AdviseOnModel(context, misreading);
+  // One cause, one advice: what a model that was misread does to its tags and pictures is no news.
+  const bool is_misread =
+      misreading != Misreading::kNone || AdviseOnBacks(context, judge) ||
+      (judge && (AdviseOnMirror(context, *judge) || AdviseOnDatum(context, *judge)));
+  if (!is_misread) AdviseOnTags(context);
+  AdviseOnFrames(context);
+  if (!is_misread && with_pictures) AdviseOnPictures(context);
+  return found;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/advice/advice.h"
+#include "scene/advice/standpoint.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+class PictureJudge;
+
+// What the parts of FindOddities share.
+struct AdviceContext {
+  const Scene& scene;
+  const ModelOptions& options;
+  Box bounds;
+  const Visibility& visibility;
+  std::vector<Standpoint> standpoints;  // of scene.photographs, in their order
+  std::vector<Advice>& found;
+
+  void Add(Advice::Severity severity,
+           const std::string& subject,
+           const std::string& message,
+           const std::string& remedy) const {
+    found.push_back({severity, subject, message, remedy});
+  }
+};
+
+// A path as a shell takes it, quoted if need be.
+std::string ShellWord(const std::filesystem::path& path);
+// The file that a photograph's tag stands in.
+std::string TagFile(const Scene& scene, const Photograph& photograph);
+// "s1, s2, s3 and 4 more".
+std::string ListNames(const std::vector<std::string>& names);
+
+// Nothing of the model is in its frame, or it stands where no camera can: a tag like that is wrong,
+// or the model is.
+bool IsImplausible(const Standpoint& standpoint);
+// The look-at point lies on the model and the model fills some of the frame.
+bool IsPlausible(const Standpoint& standpoint);
+
+// The whole scene, read otherwise: another axis up, mirrored, another unit, another datum, x and y
+// exchanged. Not kNone if one of these is clearly meant, or most tags are implausible for no reason
+// that is known here; single tags are then no news.
+enum class Misreading { kNone, kOfUnit, kOther };
+Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* judge);
+// The model by itself: its size and unit (unless that is told already), its coordinates' steps.
+void AdviseOnRaster(const AdviceContext& context);
+void AdviseOnModel(const AdviceContext& context, Misreading misreading);
+// Faces that show their backs: they run clockwise, or the model is mirrored about a line that its
+// tags suit as well, which the pictures tell if there is a judge. True if that is so.
+bool AdviseOnBacks(const AdviceContext& context, const PictureJudge* judge);
+// A model that shows its fronts and is mirrored all the same, as the pictures tell. True if so.
+bool AdviseOnMirror(const AdviceContext& context, const PictureJudge& judge);
+// All heights in the tags off by the same, as the pictures tell. True if so.
+bool AdviseOnDatum(const AdviceContext& context, const PictureJudge& judge);
+// The steps of the coordinates of a model whose faces could not be read.
+void AdviseOnUnreadModel(const Scene& scene,
+                         const ModelOptions& options,
+                         std::vector<Advice>& found);
+// Each tag by itself.
+void AdviseOnTags(const AdviceContext& context);
+// Shape and turn of the pictures against their tags.
+void AdviseOnFrames(const AdviceContext& context);
+// What the pictures show: turned by 180 degrees, mirrored, the view angle of the other side.
+void AdviseOnPictures(const AdviceContext& context);
+
+}  // namespace groundglass

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+// What the pictures themselves tell: their edges lie on the model's only if they are the right way
+// up and round, and the view angle is the one across the frame.
+#include "scene/advice/advice_parts.h"
+#include "scene/advice/edge_fit.h"
+#include "scene/advice/tag_slips.h"
+#include "scene/error.h"
+#include "scene/frames.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace groundglass {
+namespace {
+
+// How each reading of one photograph fits its picture's edges.
+struct PictureFit {
+  double as_read = 0;
+  double upside_down = 0;
+  double mirrored = 0;
+  double vertical_angle = 0;      // v taken as the angle up and down the frame
+  double diagonal_angle = 0;      // ... as the angle from corner to corner
+  const TagSlip* slip = nullptr;  // that fits best, and how well
+  double with_slip = 0;
+};
+
+struct Alternative {
+  double PictureFit::*score;
+  const char* message;
+  const char* remedy;
+};
+constexpr std::array<Alternative, 4> kAlternatives = {{
+    {&PictureFit::upside_down,
+     "the picture is turned by 180 degrees",
+     "turn the picture (with an image editor, or its EXIF orientation)"},
+    {&PictureFit::mirrored,
+     "the picture is mirrored left to right, as a slide that was scanned from its back",
+     "mirror the picture with an image editor"},
+    {&PictureFit::vertical_angle,
+     "v is the vertical view angle",
+     "v is the horizontal one: write 2 atan(a tan(v / 2)) in its place"},
+    {&PictureFit::diagonal_angle,
+     "v is the view angle from corner to corner, as lens makers give it",
+     "v is the horizontal one: write 2 atan(a / sqrt(1 + a^2) tan(v / 2)) in its place"},
+}};
+
+// Scores of chance reach 4.5; those of photographs with their right tags lie between 3.2 and 7
+// (bundled and outside scenes). A single picture is believed only far above chance.
+constexpr double kClearScore = 5;
+constexpr double kClearLead = 1.5;
+constexpr double kMeanLead = 1;
+constexpr double kMostPictures = 0.7;
+
+bool IsClearlyMeant(const PictureFit& fit, const Alternative& alternative) {
+  const double score = fit.*alternative.score;
+  if (score < kClearScore || score < fit.as_read + kClearLead) return false;
+  for (const Alternative& other : kAlternatives) {
+    if (other.score != alternative.score && fit.*other.score > score - kClearLead / 2) return false;
+  }
+  return true;
+}
+
+bool IsMeantByMost(const std::vector<PictureFit>& fits, const Alternative& alternative) {
+  double sum_of_leads = 0;
+  int num_better = 0;
+  int total = 0;
+  for (const PictureFit& fit : fits) {
+    if (fit.as_read == 0) continue;
+    double rival = fit.as_read;
+    for (const Alternative& other : kAlternatives) {
+      if (other.score != alternative.score) rival = std::max(rival, fit.*other.score);
+    }
+    const double lead = fit.*alternative.score - rival;
+    sum_of_leads += lead;
+    num_better += lead > 0 ? 1 : 0;
+    ++total;
+  }
+  return total >= 3 && num_better >= kMostPictures * total && sum_of_leads > kMeanLead * total;
+}
+
+ViewTag WithTangentTimes(ViewTag tag, double factor) {
+  const double half = std::tan(RadiansFromDegrees(tag.view_angle_deg) / 2) * factor;
+  tag.view_angle_deg = 2 * DegreesFromRadians(std::atan(half));
+  return tag;
+}
+
+PictureFit FitPicture(const AdviceContext& context,
+                      const std::vector<ModelEdge>& edges,
+                      const Photograph& photograph) {
+  const Image8 grey = ReadGrey8(photograph.image_file);
+  const auto score = [&](const EdgeFit& fit, const ViewTag& tag) {
+    return fit.Score(context.scene.model,
+                     edges,
+                     context.visibility,
+                     CameraFromTag(tag, photograph.size.width, photograph.size.height));
+  };
+  const ViewTag& tag = photograph.tag;
+  const EdgeFit upright(grey);
+  PictureFit result;
+  result.as_read = score(upright, tag);
+  if (result.as_read == 0) return result;
+  result.upside_down = score(EdgeFit(UpsideDown(grey)), tag);
+  result.mirrored = score(EdgeFit(MirroredPicture(grey)), tag);
+  result.vertical_angle = score(upright, WithTangentTimes(tag, tag.aspect));
+  result.diagonal_angle =
+      score(upright, WithTangentTimes(tag, tag.aspect / std::hypot(1.0, tag.aspect)));
+  // A tag that fits its picture well has no slip.
+  for (const TagSlip& slip : kTagSlips) {
+    if (result.as_read > kClearScore - kClearLead) break;
+    ViewTag corrected = tag;
+    slip.correct(corrected);
+    if (corrected == tag || FindTagFault(corrected)) continue;
+    const double fit = score(upright, corrected);
+    if (fit <= result.with_slip) continue;
+    result.slip = &slip;
+    result.with_slip = fit;
+  }
+  return result;
+}
+
+bool HasClearSlip(const PictureFit& fit) {
+  if (!fit.slip || fit.with_slip < kClearScore || fit.with_slip < fit.as_read + kClearLead) {
+    return false;
+  }
+  return std::all_of(kAlternatives.begin(), kAlternatives.end(), [&](const auto& alternative) {
+    return fit.*alternative.score < fit.with_slip - kClearLead / 2;
+  });
+}
+
+// True if the tag's own numbers have told what is wrong with it.
+bool IsTold(const AdviceContext& context, const std::string& file) {
+  return std::any_of(context.found.begin(), context.found.end(), [&](const Advice& advice) {
+    return advice.subject == file;
+  });
+}
+
+}  // namespace
+
+void AdviseOnPictures(const AdviceContext& context) {
+  const std::vector<Photograph>& photographs = context.scene.photographs;
+  const std::vector<ModelEdge> edges = FindModelEdges(context.scene.model);
+  std::vector<PictureFit> fits(photographs.size());
+  tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
+    try {
+      fits[i] = FitPicture(context, edges, photographs[i]);
+    } catch (const Error&) {
+      // A picture that cannot be read is told by those who read it for its own sake.
+    }
+  });
+  // What most photographs say is said of all of them, once.
+  for (const Alternative& alternative : kAlternatives) {
+    if (!IsMeantByMost(fits, alternative)) continue;
+    context.Add(Advice::Severity::kScene,
+                context.scene.folder.string(),
+                "the pictures' edges suit the model better if " + std::string(alternative.message) +
+                    " (in most of " + std::to_string(photographs.size()) + " photographs)",
+                alternative.remedy);
+    return;
+  }
+  for (size_t i = 0; i < fits.size(); ++i) {
+    const std::string tag_file = TagFile(context.scene, photographs[i]);
+    if (HasClearSlip(fits[i]) && !IsTold(context, tag_file)) {
+      context.Add(Advice::Severity::kDetail,
+                  tag_file,
+                  "the picture does not show what its tag looks at",
+                  std::string("with ") + fits[i].slip->name + " it would");
+    }
+    for (const Alternative& alternative : kAlternatives) {
+      // A wrong tag makes a right picture look wrong.
+      if (HasClearSlip(fits[i]) || IsTold(context, tag_file) ||
+          !IsClearlyMeant(fits[i], alternative)) {
+        continue;
+      }
+      context.Add(Advice::Severity::kDetail,
+                  photographs[i].image_file.string(),
+                  "its edges suit the model better if " + std::string(alternative.message),
+                  alternative.remedy);
+    }
+  }
+}
+
+}  // namespace groundglass

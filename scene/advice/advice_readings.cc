@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+// What else a scene may have been meant to be.
+#include "scene/advice/advice_readings.h"
+
+#include "scene/frames.h"
+#include "scene/text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+struct AxesWords {
+  MeshAxes axes;
+  const char* message;
+  const char* option;
+};
+constexpr std::array<AxesWords, 3> kAxesWords = {{
+    {MeshAxes::kWorld, "its y axis counts north and its z axis up", "--frame world --up z"},
+    {MeshAxes::kSite, "its y axis counts south, so that it was read mirrored", "--frame site"},
+    {MeshAxes::kYUp, "its y axis is up, so that it was read lying on its back", "--up y"},
+}};
+
+}  // namespace
+
+// The model's axes, other than as they were read.
+std::vector<Reading> OtherAxes(const AdviceContext& context) {
+  std::vector<Reading> readings;
+  const MeshAxes axes = AxesOf(context.scene.model_file, context.options);
+  const Eigen::Matrix3d world_from_read = WorldFromAxes(axes).inverse();
+  for (const AxesWords& words : kAxesWords) {
+    if (words.axes == axes) continue;
+    Reading& reading = readings.emplace_back();
+    reading.model.linear = WorldFromAxes(words.axes) * world_from_read;
+    reading.model.flips_faces = reading.model.linear.determinant() < 0;
+    reading.message = words.message;
+    reading.option = words.option;
+    if (axes == MeshAxes::kSite && words.axes == MeshAxes::kWorld) {
+      reading.message = "its y axis counts north, so that it was read mirrored";
+      reading.option = "--frame world";
+    }
+    reading.remedy = "give " + reading.option;
+    if (words.axes != MeshAxes::kYUp) continue;
+    // Its faces may run clockwise as well.
+    Reading turned = reading;
+    turned.model.flips_faces = !turned.model.flips_faces;
+    turned.message += context.options.flip_faces ? "" : ", and its faces run clockwise";
+    turned.option += context.options.flip_faces ? " without --flip-faces" : " --flip-faces";
+    turned.remedy = "give " + turned.option;
+    turned.num_changes = 2;
+    readings.push_back(turned);
+  }
+  return readings;
+}
+
+// y up and z north, as some programs have it: no option reads that, since it is left-handed.
+std::vector<Reading> LeftHandedAxes(const AdviceContext& context) {
+  const MeshAxes axes = AxesOf(context.scene.model_file, context.options);
+  Eigen::Matrix3d world_from_file;
+  world_from_file << 1, 0, 0, 0, 0, 1, 0, 1, 0;
+  std::vector<Reading> readings;
+  for (const bool flips_faces : {true, false}) {
+    Reading& reading = readings.emplace_back();
+    reading.model.linear = world_from_file * WorldFromAxes(axes).inverse();
+    reading.model.flips_faces = flips_faces;
+    reading.message = "its y axis is up and its z axis counts north, which is left-handed";
+    reading.remedy =
+        "change the sign of every z, and give --up y (--up y by itself reads it mirrored); if its "
+        "faces show their backs then, --flip-faces too";
+    reading.num_changes = 2;
+  }
+  return readings;
+}
+
+// The options with which the model's axes were read, as they are typed: " --up y --flip-faces".
+std::string AxesOptions(const ModelOptions& options) {
+  std::string text;
+  if (options.mesh_axes == MeshAxes::kWorld) text = " --frame world";
+  if (options.mesh_axes == MeshAxes::kSite) text = " --frame site";
+  if (options.mesh_axes == MeshAxes::kYUp) text = " --up y";
+  if (options.mesh_axes == MeshAxes::kZUp) text = " --up z";
+  return text + (options.flip_faces ? " --flip-faces" : "");
+}
+
+namespace {
+
+// The command that brings the model's numbers to the tags' unit, as it can be typed. What it writes
+// has the axes of its format, so that it is read without the options for them.
+std::string ConvertRemedy(const AdviceContext& context,
+                          const std::string& axes_options,
+                          LengthUnit of_model,
+                          LengthUnit of_tags) {
+  const std::string tags_unit = UnitName(of_tags);
+  const std::string output = ShellWord(context.scene.folder / ("model-in-" + tags_unit + ".osu"));
+  return "bring them together: groundglass convert " + ShellWord(context.scene.model_file) + " " +
+         output + axes_options + " --unit " + UnitName(of_model) + " --to-unit " + tags_unit +
+         ", and from then on give --model " + output +
+         (axes_options.empty() ? "" : " in place of" + axes_options);
+}
+
+}  // namespace
+
+// The model's numbers in one unit, the tags' in another.
+std::vector<Reading> OtherUnits(const AdviceContext& context, const std::string& axes_options) {
+  constexpr std::array<LengthUnit, 5> kUnits = {LengthUnit::kMillimetre,
+                                                LengthUnit::kCentimetre,
+                                                LengthUnit::kInch,
+                                                LengthUnit::kFoot,
+                                                LengthUnit::kMetre};
+  std::vector<Reading> readings;
+  for (const LengthUnit of_model : kUnits) {
+    for (const LengthUnit of_tags : kUnits) {
+      if (of_model == of_tags) continue;
+      const double ratio = MetresPerUnit(of_model) / MetresPerUnit(of_tags);
+      Reading& reading = readings.emplace_back();
+      reading.model.linear *= ratio;
+      const std::string model_unit = UnitName(of_model);
+      const std::string tags_unit = UnitName(of_tags);
+      const std::string times =
+          FormatNumber(std::round(100 * std::max(ratio, 1 / ratio)) / 100) + " times as large as ";
+      reading.message = (ratio < 1 ? "the model's numbers are " + times + "the tags'"
+                                   : "the tags' numbers are " + times + "the model's") +
+                        ": it is in " + model_unit + " and they in " + tags_unit + ", it seems";
+      reading.remedy = ConvertRemedy(context, axes_options, of_model, of_tags);
+    }
+  }
+  return readings;
+}
+
+// The tags' numbers, written in another order or with another sign.
+std::vector<Reading> OtherTags() {
+  struct Order {
+    const char* message;
+    const char* remedy;
+    Eigen::Vector3d (*site)(const Eigen::Vector3d&);
+  };
+  constexpr std::array<Order, 4> kOrders = {{
+      {"x and y are exchanged in the tags, or in the model",
+       "in view files x counts east and y south: exchange x with y, and i with j",
+       [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.y(), p.x(), p.z()); }},
+      {"y counts north in the tags, or south in the model",
+       "in view files y counts south: change the signs of y and j in every tag, or, if it is the "
+       "model whose y counts south, give --frame site --flip-faces",
+       [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), -p.y(), p.z()); }},
+      {"x counts north and y east in the tags, as surveyors write",
+       "in view files x counts east and y south: write y in place of x, and -x in place of y; the "
+       "same for i and j",
+       [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.y(), -p.x(), p.z()); }},
+      {"x counts west in the tags, or in the model",
+       "in view files x counts east: change the signs of x and i in every tag",
+       [](const Eigen::Vector3d& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); }},
+  }};
+  std::vector<Reading> readings;
+  for (const Order& order : kOrders) {
+    Reading& reading = readings.emplace_back();
+    reading.retag = [site = order.site](ViewTag tag) {
+      tag.position_in_site = site(tag.position_in_site);
+      tag.lookat_in_site = site(tag.lookat_in_site);
+      return tag;
+    };
+    reading.message = order.message;
+    reading.remedy = order.remedy;
+  }
+  return readings;
+}
+
+// All heights off by the same: the look-at points lie all above the model, or all below it.
+std::vector<Reading> OtherDatums(const AdviceContext& context,
+                                 const std::vector<const Photograph*>& photographs) {
+  std::vector<double> camera_heights;
+  std::vector<double> lookat_heights;
+  for (const Photograph* photograph : photographs) {
+    camera_heights.push_back(photograph->tag.position_in_site.z());
+    lookat_heights.push_back(photograph->tag.lookat_in_site.z());
+  }
+  std::sort(camera_heights.begin(), camera_heights.end());
+  std::sort(lookat_heights.begin(), lookat_heights.end());
+  const double height = context.bounds.max.z() - context.bounds.min.z();
+  const bool is_above = lookat_heights.front() > context.bounds.max.z() + 0.1 * height;
+  const bool is_below = lookat_heights.back() < context.bounds.min.z() - 0.1 * height;
+  if (!is_above && !is_below) return {};
+  const double eye = 1.6 / MetresPerUnit(context.scene.model.unit);
+  const double by_eye = camera_heights[camera_heights.size() / 2] - eye - context.bounds.min.z();
+  const double by_lookat = lookat_heights[lookat_heights.size() / 2] - context.bounds.Center().z();
+  std::vector<Reading> readings;
+  for (const double datum : {by_eye, by_lookat}) {
+    Reading& reading = readings.emplace_back();
+    reading.model.offset.z() = datum;
+    reading.message = "all heights in the tags lie about " +
+                      FormatLength(std::abs(datum), context.scene.model.unit) +
+                      (datum > 0 ? " above" : " below") +
+                      " the model's, so that they count from another zero";
+    reading.remedy = "count both from the same height: change z and k of every tag by about " +
+                     FormatNumber(-std::round(datum * 10) / 10) + ", or move the model";
+  }
+  return readings;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/formats/convert.h"
+
+#include "scene/error.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/image_paths.h"
+#include "scene/formats/osu_io.h"
+#include "scene/formats/photograph_name.h"
+#include "scene/formats/scene_folder.h"
+#include "scene/formats/textured_model_io.h"
+#include "scene/formats/view_io.h"
+#include "scene/text.h"
+
+#include <algorithm>
+#include <map>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Count(size_t number, const std::string& what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+// The same lengths, counted in another unit.
+void ChangeUnit(LengthUnit unit, PolygonModel& model) {
+  const double scale = MetresPerUnit(model.unit) / MetresPerUnit(unit);
+  for (Eigen::Vector3d& point : model.points_in_world) point *= scale;
+  if (model.sigma) *model.sigma *= scale;
+  model.unit = unit;
+}
+
+}  // namespace
+
+ConvertResult ConvertModel(const fs::path& input,
+                           const fs::path& output,
+                           const ModelOptions& options,
+                           const std::optional<LengthUnit>& output_unit) {
+  const std::string to = LowerCase(output.extension().string());
+  if (to != ".osu" && to != ".obj" && to != ".glb") {
+    throw Error(output, "a model is written as .osu, .obj or .glb");
+  }
+  ConvertResult result;
+  TexturedModelReading reading = ReadTexturedModel(input, options, to != ".osu");
+  result.warnings = std::move(reading.warnings);
+  TexturedModel& textured = reading.textured;
+  if (output_unit) ChangeUnit(*output_unit, textured.model);
+  if (to == ".osu") {
+    WriteFileAtomically(output, FormatOsu(textured.model));
+  } else if (to == ".glb") {
+    WriteGlb(output, textured);
+  } else if (textured.pages.empty()) {
+    WriteFileAtomically(output, FormatObj(textured.model));
+  } else {
+    WriteTexturedObj(output, textured);
+  }
+  result.summary = Count(textured.model.points_in_world.size(), "point") + ", " +
+                   Count(textured.model.faces.size(), "face") + ", " +
+                   Count(textured.pages.size(), "texture page") + " in " + output.string();
+  return result;
+}
+
+ConvertResult ConvertColmapToViews(const fs::path& input,
+                                   const fs::path& output,
+                                   double lookat_distance) {
+  if (!(lookat_distance > 0)) throw Error("the look-at distance must be above 0");
+  const std::optional<ColmapFiles> files = FindColmapModel(input);
+  if (!files) throw Error(input, "no COLMAP model here");
+  const ColmapReading reading = ReadColmapImages(*files);
+  const std::vector<NamedCamera>& cameras = reading.cameras;
+  std::vector<std::string> images;
+  for (const NamedCamera& named : cameras) images.push_back(named.name);
+  const std::vector<std::string> names = NamePhotographs(images);
+  // All are made before the first is written, so that a fault leaves nothing half done.
+  std::map<std::string, size_t> image_of_name;
+  std::vector<FileToWrite> view_files;
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    const auto [place, is_new] = image_of_name.emplace(names[i], i);
+    if (!is_new) {
+      throw Error(input,
+                  "images " + Quote(images[place->second]) + " and " + Quote(images[i]) +
+                      " would have the same view file");
+    }
+    const ViewTag tag = TagFromCamera(cameras[i].camera, lookat_distance);
+    if (const std::optional<TagFault> fault = FindTagFault(tag)) {
+      throw Error(input, "image " + Quote(images[i]) + ": " + fault->message);
+    }
+    view_files.push_back(
+        {output / (names[i] + ".view"),
+         FormatView(tag,
+                    "File: " + names[i] + ".view\nFrom a COLMAP model, image " + images[i] + ".")});
+  }
+  WriteFilesAtomically(view_files);
+  std::vector<std::string> warnings = files->warnings;
+  const std::vector<std::string> faults = TellColmapFaults(reading.faults);
+  warnings.insert(warnings.end(), faults.begin(), faults.end());
+  return {Count(cameras.size(), "view file") + " in " + output.string(), warnings};
+}
+
+ConvertResult ConvertViewsToColmap(const fs::path& input,
+                                   const fs::path& output,
+                                   const fs::path& images) {
+  ConvertResult result;
+  std::error_code error;
+  if (!fs::is_directory(images, error)) {
+    throw Error(images, "no such folder of images, which tell the photographs' sizes");
+  }
+  const std::vector<std::string> image_paths = ListImagePaths(images);
+  const std::vector<std::string> names = NamePhotographs(image_paths);
+  std::vector<PhotographName> image_names;
+  for (size_t i = 0; i < image_paths.size(); ++i) {
+    image_names.push_back({names[i], image_paths[i]});
+  }
+  std::vector<fs::path> views;
+  for (const fs::directory_entry& entry : fs::directory_iterator(input)) {
+    if (entry.path().extension() == ".view") views.push_back(entry.path());
+  }
+  std::sort(views.begin(), views.end(), [](const fs::path& a, const fs::path& b) {
+    return NaturalLess(a.stem().string(), b.stem().string());
+  });
+  std::vector<NamedCamera> cameras;
+  for (const fs::path& view : views) {
+    const ViewTag tag = ReadView(view);
+    const std::optional<size_t> found = FindPhotograph(view.stem().string(), image_names);
+    if (!found) {
+      result.warnings.push_back(Error(view, "left out, since it has no image").what());
+      continue;
+    }
+    const ImageSize size = ReadImageSize(images / image_paths[*found]);
+    cameras.push_back({image_paths[*found], CameraFromTag(tag, size.width, size.height)});
+  }
+  if (cameras.empty()) throw Error(input, "no view file here has an image");
+  WriteColmapModel(output, cameras);
+  result.summary = Count(cameras.size(), "camera") + " in " + output.string();
+  return result;
+}
+
+}  // namespace groundglass

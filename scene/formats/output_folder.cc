@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/formats/output_folder.h"
+
+#include "scene/error.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/view_io.h"
+
+#include <nlohmann/json.hpp>
+#include <openssl/evp.h>
+
+#include <array>
+#include <fstream>
+#include <memory>
+
+namespace groundglass {
+namespace {
+
+constexpr const char* kFileName = "manifest.json";
+constexpr const char* kProgram = "groundglass";
+
+// SHA-256 of what is added, piece by piece.
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+    EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
+  }
+  void Add(const char* bytes, size_t size) { EVP_DigestUpdate(context_.get(), bytes, size); }
+  std::string Finish() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+    unsigned length = 0;
+    EVP_DigestFinal_ex(context_.get(), digest.data(), &length);
+    std::string text;
+    for (unsigned i = 0; i < length; ++i) {
+      constexpr const char* kDigits = "0123456789abcdef";
+      text += kDigits[digest[i] >> 4];
+      text += kDigits[digest[i] & 15];
+    }
+    return text;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+}  // namespace
+
+std::string FormatManifest(const Manifest& manifest) {
+  nlohmann::ordered_json json = {{"program", kProgram},
+                                 {"version", manifest.version},
+                                 {"command", manifest.command},
+                                 {"seed", manifest.seed},
+                                 {"options", manifest.options},
+                                 {"sha256_of_inputs", manifest.sha256_of_inputs},
+                                 {"stages", nlohmann::ordered_json::array()}};
+  for (const StageRecord& stage : manifest.stages) {
+    json["stages"].push_back({{"name", stage.name},
+                              {"key", stage.key},
+                              {"is_complete", stage.is_complete},
+                              {"files", stage.files},
+                              {"sha256_of_files", stage.sha256_of_files}});
+  }
+  // File names may be of any bytes.
+  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string HashFile(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Error(file, "cannot be read");
+  Sha256 sha;
+  std::array<char, 1 << 16> buffer;
+  while (in.read(buffer.data(), buffer.size()) || in.gcount() > 0) {
+    sha.Add(buffer.data(), static_cast<size_t>(in.gcount()));
+  }
+  return sha.Finish();
+}
+
+std::string HashText(const std::string& text) {
+  Sha256 sha;
+  sha.Add(text.data(), text.size());
+  return sha.Finish();
+}
+
+FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  if (std::filesystem::exists(folder, failure) && !std::filesystem::is_directory(folder)) {
+    throw Error(folder, "is a file; the output needs a folder");
+  }
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw Error(folder, "cannot be made: " + failure.message());
+  FolderLock lock(folder);
+  if (std::filesystem::is_empty(folder)) return lock;
+  const std::filesystem::path file = folder / kFileName;
+  const bool is_ours = std::filesystem::exists(file) && [&] {
+    const auto json = nlohmann::json::parse(ReadTextFile(file), nullptr, false);
+    return json.is_object() && json.value("program", "") == kProgram;
+  }();
+  if (!is_ours) {
+    throw Error(folder,
+                "holds files that are not ours (no manifest.json of groundglass); name an "
+                "empty or new folder");
+  }
+  // What a run that was killed was writing.
+  std::vector<std::filesystem::path> left_over;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (IsTemporaryName(entry.path())) left_over.push_back(entry.path());
+  }
+  for (const std::filesystem::path& part : left_over) std::filesystem::remove(part, failure);
+  return lock;
+}
+
+std::vector<StageRecord> ReadStages(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kFileName;
+  if (!std::filesystem::exists(file)) return {};
+  const auto json = nlohmann::json::parse(ReadTextFile(file), nullptr, false);
+  std::vector<StageRecord> stages;
+  try {
+    for (const auto& stage : json.at("stages")) {
+      stages.push_back({stage.at("name").get<std::string>(),
+                        stage.at("key").get<std::string>(),
+                        stage.at("is_complete").get<bool>(),
+                        stage.at("files").get<std::vector<std::string>>(),
+                        // Earlier versions did not write them down.
+                        stage.value("sha256_of_files", std::map<std::string, std::string>())});
+    }
+  } catch (const nlohmann::json::exception&) {
+    // Written by hand, or by an earlier version: nothing of it can be kept.
+    return {};
+  }
+  return stages;
+}
+
+void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest) {
+  WriteFileAtomically(folder / kFileName, FormatManifest(manifest));
+}
+
+}  // namespace groundglass

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/formats/registration_io.h"
+
+#include "scene/error.h"
+#include "scene/formats/view_io.h"
+#include "scene/frames.h"
+
+#include <nlohmann/json.hpp>
+
+namespace groundglass {
+namespace {
+
+// Ordered, so that a person finds the keys where the docs have them.
+using Json = nlohmann::ordered_json;
+
+// Few cameras have k3, p1 and p2: left out where 0.
+bool IsRare(int index) { return static_cast<TagKey>(index) >= TagKey::kK3; }
+
+Json JsonFromTag(const ViewTag& tag) {
+  Json json;
+  for (int index = 0; index < kNumTagKeys; ++index) {
+    if (IsRare(index) && GetTagValue(tag, static_cast<TagKey>(index)) == 0) continue;
+    json[std::string(kTagKeyNames[index])] = GetTagValue(tag, static_cast<TagKey>(index));
+  }
+  for (const SigmaKey& key : kSigmaKeys) {
+    if (const std::optional<double>& sigma = tag.sigmas.*(key.member))
+      json[std::string(key.name)] = *sigma;
+  }
+  if (!tag.camera.empty()) json["camera"] = tag.camera;
+  return json;
+}
+
+ViewTag TagFromJson(const Json& json) {
+  ViewTag tag;
+  for (int index = 0; index < kNumTagKeys; ++index) {
+    const std::string key(kTagKeyNames[index]);
+    if (IsRare(index) && !json.contains(key)) continue;
+    SetTagValue(tag, static_cast<TagKey>(index), json.at(key).get<double>());
+  }
+  for (const SigmaKey& key : kSigmaKeys) {
+    const std::string name(key.name);
+    if (json.contains(name)) tag.sigmas.*(key.member) = json.at(name).get<double>();
+  }
+  tag.camera = json.value("camera", "");
+  return tag;
+}
+
+Json JsonFromParameters(const CameraParameters& parameters) {
+  Json json;
+  for (int index = 0; index < kNumCameraParameters; ++index) {
+    json[std::string(kCameraParameterNames[index])] = parameters[index];
+  }
+  return json;
+}
+
+CameraParameters ParametersFromJson(const Json& json) {
+  CameraParameters parameters;
+  for (int index = 0; index < kNumCameraParameters; ++index) {
+    parameters[index] = json.at(std::string(kCameraParameterNames[index])).get<double>();
+  }
+  return parameters;
+}
+
+// null: there is no such number.
+Json JsonFromOptional(const std::optional<double>& number) {
+  return number ? Json(*number) : Json(nullptr);
+}
+
+std::optional<double> OptionalFromJson(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end() || found->is_null()) return std::nullopt;
+  return found->get<double>();
+}
+
+Verdict VerdictFromName(const std::string& name) {
+  for (const Verdict verdict :
+       {Verdict::kAccepted, Verdict::kReview, Verdict::kRejected, Verdict::kUnreadable}) {
+    if (VerdictName(verdict) == name) return verdict;
+  }
+  throw Error("verdict '" + name + "' is not accepted, review, rejected or unreadable");
+}
+
+Json JsonFromRegistration(const Registration& registration) {
+  Json json;
+  json["name"] = registration.name;
+  json["verdict"] = VerdictName(registration.verdict);
+  json["reasons"] = registration.reasons;
+  if (registration.verdict == Verdict::kUnreadable) return json;
+  json["width_px"] = registration.width_px;
+  json["height_px"] = registration.height_px;
+  json["measured"] = JsonFromTag(registration.measured);
+  json["corrected"] = JsonFromTag(registration.corrected);
+  json["sigmas"] = JsonFromParameters(registration.sigmas);
+  json["prior_sigmas"] = JsonFromParameters(registration.prior_sigmas);
+  json["parameters"] = kCameraParameterNames;
+  const CameraCovariance covariance_in_site = SiteCovariance(registration.covariance);
+  json["covariance"] = Json::array();
+  for (int row = 0; row < kNumCameraParameters; ++row) {
+    Json values = Json::array();
+    for (int column = 0; column < kNumCameraParameters; ++column) {
+      values.push_back(covariance_in_site(row, column));
+    }
+    json["covariance"].push_back(std::move(values));
+  }
+  json["undetermined"] = registration.undetermined;
+  json["num_samples"] = registration.num_samples;
+  json["rms_px"] = JsonFromOptional(registration.rms_px);
+  json["robust_sigma_px"] = JsonFromOptional(registration.robust_sigma_px);
+  json["score_nats"] = registration.score_nats;
+  json["margin_nats"] = JsonFromOptional(registration.margin_nats);
+  json["moved_px"] = registration.moved_px;
+  json["vertex_sigma_px"] = registration.vertex_sigma_px;
+  return json;
+}
+
+Registration RegistrationFromJson(const Json& json) {
+  Registration registration;
+  registration.name = json.at("name").get<std::string>();
+  registration.verdict = VerdictFromName(json.at("verdict").get<std::string>());
+  registration.reasons = json.at("reasons").get<std::vector<std::string>>();
+  if (registration.verdict == Verdict::kUnreadable) return registration;
+  registration.width_px = json.at("width_px").get<int>();
+  registration.height_px = json.at("height_px").get<int>();
+  if (registration.width_px < 1 || registration.height_px < 1) {
+    throw Error("photograph '" + registration.name + "': width_px and height_px must be above 0");
+  }
+  registration.measured = TagFromJson(json.at("measured"));
+  registration.corrected = TagFromJson(json.at("corrected"));
+  for (const ViewTag* tag : {&registration.measured, &registration.corrected}) {
+    if (const std::optional<TagFault> fault = FindTagFault(*tag)) {
+      throw Error("photograph '" + registration.name + "': key '" + fault->key +
+                  "': " + fault->message);
+    }
+  }
+  registration.sigmas = ParametersFromJson(json.at("sigmas"));
+  registration.prior_sigmas = ParametersFromJson(json.at("prior_sigmas"));
+  const Json& covariance = json.at("covariance");
+  for (int row = 0; row < kNumCameraParameters; ++row) {
+    for (int column = 0; column < kNumCameraParameters; ++column) {
+      registration.covariance(row, column) = covariance.at(row).at(column).get<double>();
+    }
+  }
+  registration.covariance = SiteCovariance(registration.covariance);
+  registration.undetermined = json.at("undetermined").get<std::vector<std::string>>();
+  registration.num_samples = json.at("num_samples").get<int>();
+  if (json.contains("robust_sigma_px")) {
+    registration.rms_px = OptionalFromJson(json, "rms_px");
+    registration.robust_sigma_px = OptionalFromJson(json, "robust_sigma_px");
+  } else {
+    // Written by version 0.1, which called the robust spread rms_px.
+    registration.robust_sigma_px = OptionalFromJson(json, "rms_px");
+  }
+  registration.score_nats = json.at("score_nats").get<double>();
+  registration.margin_nats = OptionalFromJson(json, "margin_nats");
+  constexpr double kNoRivalOfVersion01 = 1e6;
+  if (registration.margin_nats == kNoRivalOfVersion01) registration.margin_nats.reset();
+  registration.moved_px = json.at("moved_px").get<double>();
+  registration.vertex_sigma_px = json.at("vertex_sigma_px").get<double>();
+  return registration;
+}
+
+Json JsonFromSite(const Eigen::Vector3d& in_world) {
+  const Eigen::Vector3d in_site = SiteFromWorld(in_world);
+  return {in_site.x(), in_site.y(), in_site.z()};
+}
+
+Eigen::Vector3d WorldFromJson(const Json& json) {
+  return WorldFromSite(
+      {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()});
+}
+
+Json JsonFromModelError(const ModelError& error) {
+  Json json;
+  json["name"] = error.name;
+  json["start"] = JsonFromSite(error.start_in_world);
+  json["end"] = JsonFromSite(error.end_in_world);
+  json["offset"] = JsonFromSite(error.offset_in_world);
+  json["sigma"] = error.sigma;
+  json["num_photographs"] = error.num_photographs;
+  return json;
+}
+
+// What `read` makes of the file's JSON; errors name the file, in one line.
+template <typename Read>
+auto ReadDocument(const std::filesystem::path& file, Read read) {
+  try {
+    return read(Json::parse(ReadTextFile(file)));
+  } catch (const Json::exception& error) {
+    throw Error(file, std::string("not a registration file: ") + error.what());
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    if (message.starts_with(file.string())) throw;
+    throw Error(file, message);
+  }
+}
+
+}  // namespace
+
+std::string FormatRegistrations(const std::vector<Registration>& registrations,
+                                const std::vector<ModelError>& model_errors,
+                                const std::vector<std::string>& warnings) {
+  Json document;
+  document["photographs"] = Json::array();
+  for (const Registration& registration : registrations) {
+    document["photographs"].push_back(JsonFromRegistration(registration));
+  }
+  document["model_errors"] = Json::array();
+  for (const ModelError& error : model_errors) {
+    document["model_errors"].push_back(JsonFromModelError(error));
+  }
+  document["warnings"] = warnings;
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<Registration> ReadRegistrations(const std::filesystem::path& file) {
+  return ReadDocument(file, [](const Json& document) {
+    std::vector<Registration> registrations;
+    for (const Json& json : document.at("photographs")) {
+      registrations.push_back(RegistrationFromJson(json));
+    }
+    return registrations;
+  });
+}
+
+std::vector<ModelError> ReadModelErrors(const std::filesystem::path& file) {
+  return ReadDocument(file, [](const Json& document) {
+    std::vector<ModelError> errors;
+    for (const Json& json : document.value("model_errors", Json::array())) {
+      errors.push_back({json.at("name").get<std::string>(),
+                        WorldFromJson(json.at("start")),
+                        WorldFromJson(json.at("end")),
+                        WorldFromJson(json.at("offset")),
+                        json.at("sigma").get<double>(),
+                        json.at("num_photographs").get<int>()});
+    }
+    return errors;
+  });
+}
+
+std::vector<std::string> ReadRegistrationWarnings(const std::filesystem::path& file) {
+  return ReadDocument(file, [](const Json& document) {
+    return document.value("warnings", std::vector<std::string>());
+  });
+}
+
+}  // namespace groundglass

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+// Internal to scene.
+#pragma once
+
+#include "scene/error.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/scene_folder.h"
+#include "scene/text.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// Said where no photograph has a tag.
+inline constexpr const char* kHowToBegin =
+    "A tag says where the camera stood (x y z), the point that it looked at (i j k), the frame's "
+    "width / height (a) and its horizontal view angle in degrees (v): groundglass check SCENE "
+    "--template writes one for each photograph, to be filled in; docs/tutorial.md tells how";
+
+// The plain files of a folder in natural order, hidden ones left out; none if there is no folder.
+std::vector<std::filesystem::path> ListFiles(const std::filesystem::path& folder);
+
+struct NaturalOrder {
+  bool operator()(const std::string& a, const std::string& b) const { return NaturalLess(a, b); }
+};
+using FilesByStem = std::map<std::string, std::filesystem::path, NaturalOrder>;
+
+struct FoundTag {
+  ViewTag tag;
+  std::filesystem::path view_file;
+};
+
+// A scene and its faults, told apart by what they spoil.
+struct SceneReading {
+  SceneCheck check;                       // with every fault, in the order of reading
+  std::vector<std::string> scene_faults;  // of the whole: nothing can be done with this scene
+  std::vector<std::string> stray_faults;  // of files that no photograph needs
+};
+
+// Gathers a scene and its faults, part by part, each as far as it can be read.
+class SceneReader {
+ public:
+  SceneReader(const std::filesystem::path& folder, const SceneOptions& options);
+  SceneReading Read();
+
+ private:
+  // Of the scene as a whole.
+  void Fault(const std::string& line) {
+    result_.faults.push_back(line);
+    scene_faults_.push_back(line);
+  }
+  // Of one photograph, its tag or its masks.
+  void FaultOf(const std::string& name, const std::string& line) {
+    result_.faults.push_back(line);
+    faults_of_[name].push_back(line);
+  }
+  void Warn(const std::filesystem::path& file, const std::string& message) {
+    result_.scene.warnings.push_back(Error(file, message).what());
+  }
+
+  void ReadTheModel();
+  // The images of a folder and of those in it, by the photographs' names (image_paths.h), and what
+  // else lies there told once.
+  FilesByStem ListImages(const char* subfolder);
+  // A name from a file's, which old archives may have in Latin-1.
+  std::string NameInUtf8(const std::filesystem::path& file, const std::string& name);
+  void ReadTags(const FilesByStem& images);
+  // The tags of a COLMAP model's cameras.
+  void ReadGivenCameras(const ColmapFiles& files, const FilesByStem& images);
+  void Match(const FilesByStem& images);
+  void AddMasks(const char* subfolder, std::optional<std::filesystem::path> Photograph::*member);
+  // The photograph that lies in images/ where a mask lies in masks/: north/0001.
+  std::optional<size_t> FindByPlace(const std::filesystem::path& mask) const;
+  // Reads every pixel, since a damaged file may have a sound header.
+  void DecodeAll();
+  // Moves photographs with faults out of the others' way. Returns the faults that are left.
+  std::vector<std::string> SetUnreadableApart();
+
+  std::filesystem::path folder_;
+  SceneOptions options_;
+  SceneCheck result_;
+  std::vector<std::string> scene_faults_;
+  std::map<std::string, std::vector<std::string>, NaturalOrder> faults_of_;  // by photograph
+  std::set<std::filesystem::path> not_images_;  // whose header cannot be read
+  std::map<std::string, FoundTag, NaturalOrder> tags_;
+  FilesByStem known_names_;             // every photograph that has a tag, readable or not
+  std::string tags_place_;              // where a tag is expected, if not in views/
+  std::filesystem::path cameras_file_;  // the COLMAP model that gave the tags, if one did
+};
+
+}  // namespace groundglass

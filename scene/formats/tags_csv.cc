@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/formats/tags_csv.h"
+
+#include "scene/error.h"
+#include "scene/formats/csv.h"
+#include "scene/formats/image_kind.h"
+#include "scene/formats/view_io.h"
+#include "scene/frames.h"
+#include "scene/text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace groundglass {
+namespace {
+
+constexpr std::array<std::string_view, 9> kOtherColumns = {"sigma_position",
+                                                           "sigma_height",
+                                                           "sigma_lookat",
+                                                           "sigma_roll",
+                                                           "sigma_v",
+                                                           "sigma_a",
+                                                           "sigma_shift",
+                                                           "sigma_k1",
+                                                           "camera"};
+
+// Earth-centred coordinates in metres (WGS 84).
+Eigen::Vector3d EarthCentred(double latitude_deg, double longitude_deg, double height_m) {
+  constexpr double kSemiMajor = 6378137.0;
+  constexpr double kFlattening = 1 / 298.257223563;
+  constexpr double kEccentricity2 = kFlattening * (2 - kFlattening);
+  const double latitude = RadiansFromDegrees(latitude_deg);
+  const double longitude = RadiansFromDegrees(longitude_deg);
+  const double sin_latitude = std::sin(latitude);
+  const double curvature = kSemiMajor / std::sqrt(1 - kEccentricity2 * sin_latitude * sin_latitude);
+  return {(curvature + height_m) * std::cos(latitude) * std::cos(longitude),
+          (curvature + height_m) * std::cos(latitude) * std::sin(longitude),
+          (curvature * (1 - kEccentricity2) + height_m) * sin_latitude};
+}
+
+// Reads the rows one by one, each by way of the view file that says the same.
+class TableReader {
+ public:
+  TableReader(const std::filesystem::path& file, const PolygonModel& model)
+      : file_(file), model_(model), center_in_site_(SiteFromWorld(ComputeBounds(model).Center())) {}
+
+  TagTable Read() {
+    std::vector<std::string> faults;
+    const CsvTable csv(file_, &faults);
+    table_.warnings = csv.warnings();
+    if (csv.header().empty()) {
+      table_.faults.push_back(Error(file_, "no header; expected image,x,y,z,i,j,k,a,v").what());
+    } else if (ReadHeader(csv.header_line(), csv.header())) {
+      table_.faults = std::move(faults);
+      for (const CsvRow& row : csv.rows()) ReadRow(csv, row);
+    }
+    return std::move(table_);
+  }
+
+ private:
+  void Fail(int line, const std::string& message) {
+    table_.faults.push_back(Error(file_, line, message).what());
+  }
+
+  bool Has(const std::string& column) const { return columns_.count(column) > 0; }
+
+  bool ReadHeader(int line, const std::vector<std::string>& names) {
+    const size_t faults_before = table_.faults.size();
+    for (size_t i = 0; i < names.size(); ++i) {
+      const std::string& name = names[i];
+      const bool is_known =
+          std::find(kTagKeyNames.begin(), kTagKeyNames.end(), name) != kTagKeyNames.end() ||
+          std::find(kOtherColumns.begin(), kOtherColumns.end(), name) != kOtherColumns.end() ||
+          name == "image" || name == "yaw" || name == "pitch" || name == "lat" || name == "lon" ||
+          name == "height";
+      if (!is_known) Fail(line, "unknown column " + Quote(names[i]));
+      if (!columns_.emplace(name, i).second) Fail(line, "column " + Quote(name) + " is repeated");
+    }
+    has_angles_ = Has("yaw") || Has("pitch");
+    is_geodetic_ = Has("lat") || Has("lon") || Has("height");
+    const auto require = [&](std::initializer_list<const char*> required) {
+      for (const char* name : required) {
+        if (!Has(name)) Fail(line, "column " + Quote(name) + " is missing");
+      }
+    };
+    const auto refuse = [&](std::initializer_list<const char*> refused, const char* other) {
+      for (const char* name : refused) {
+        if (Has(name)) Fail(line, "column " + Quote(name) + " says the same as " + other);
+      }
+    };
+    require({"image", "a", "v"});
+    if (has_angles_) {
+      require({"yaw", "pitch"});
+      refuse({"i", "j", "k"}, "yaw,pitch");
+    } else {
+      require({"i", "j", "k"});
+    }
+    if (is_geodetic_) {
+      require({"lat", "lon", "height"});
+      refuse({"x", "y", "z"}, "lat,lon,height");
+      if (!model_.georeference) {
+        Fail(line,
+             "lat,lon,height need a model that says where it stands; expected a comment "
+             "'% origin: LATITUDE LONGITUDE HEIGHT' in it");
+      }
+    } else {
+      require({"x", "y", "z"});
+    }
+    return table_.faults.size() == faults_before;
+  }
+
+  void ReadRow(const CsvTable& csv, const CsvRow& csv_row) {
+    const std::vector<std::string>& fields = csv_row.fields;
+    const size_t image_column = columns_.at("image");
+    const std::string image = image_column < fields.size() ? fields[image_column] : "";
+    std::vector<std::string> faults;
+    const auto fail = [&](const std::string& message) {
+      faults.push_back(Error(file_, csv_row.line, message).what());
+    };
+    TagRow row;
+    row.line = csv_row.line;
+    if (image.empty()) {
+      row.name = file_.filename().string() + ":" + std::to_string(csv_row.line);
+      fail("column 'image' is empty");
+    } else {
+      // "s5.jpg" and "s5" both name s5; so does "images/s5.jpg".
+      row.name = ImageStem(image);
+      if (!csv_row.fault.empty()) {
+        fail(csv_row.fault);
+      } else if (!names_.insert(row.name).second) {
+        fail("photograph " + Quote(row.name) + " has a row already");
+      } else {
+        ReadTag(csv, fields, row, fail);
+      }
+    }
+    if (faults.empty()) {
+      table_.rows.push_back(std::move(row));
+      return;
+    }
+    std::vector<std::string>& all = table_.row_faults[row.name];
+    all.insert(all.end(), faults.begin(), faults.end());
+  }
+
+  // The tag that a row's fields give, or what is wrong with it.
+  template <typename Fail>
+  void ReadTag(const CsvTable& csv,
+               const std::vector<std::string>& fields,
+               TagRow& row,
+               const Fail& fail) {
+    bool is_sound = true;
+    const auto number = [&](const std::string& column) {
+      const std::string& field = fields[columns_.at(column)];
+      std::string why_not;
+      const std::optional<double> value = csv.Number(field, &why_not);
+      if (value && std::isfinite(*value)) return *value;
+      if (why_not.empty()) why_not = value ? "is not a finite number" : "is not a number";
+      fail("key " + Quote(column) + ": " + Quote(field) + " " + why_not);
+      is_sound = false;
+      return 0.0;
+    };
+    std::string view_text;
+    for (const auto& [column, index] : columns_) {
+      if (column == "image" || column == "yaw" || column == "pitch" || column == "lat" ||
+          column == "lon" || column == "height" || fields[index].empty()) {
+        continue;
+      }
+      view_text +=
+          column + " " + (column == "camera" ? fields[index] : FormatNumber(number(column))) + " ";
+    }
+    if (!is_sound) return;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    if (is_geodetic_) {
+      position = SiteFromGeodetic(model_, number("lat"), number("lon"), number("height"));
+      view_text += FormatPoint("x", "y", "z", position);
+    } else if (has_angles_) {
+      position = {number("x"), number("y"), number("z")};
+    }
+    if (has_angles_) {
+      const double yaw = RadiansFromDegrees(number("yaw"));
+      const double pitch = RadiansFromDegrees(number("pitch"));
+      const Eigen::Vector3d axis(
+          std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch), std::sin(pitch));
+      const double distance = std::max(1.0, (center_in_site_ - position).norm());
+      view_text += FormatPoint("i", "j", "k", position + distance * axis);
+    }
+    if (!is_sound) return;
+    // The view file's own checks; its line 1 is this row.
+    for (const std::string& fault : FindViewFaults(view_text, "")) {
+      const size_t colon = fault.find(": ");
+      fail(fault.substr(colon + 2));
+      is_sound = false;
+    }
+    if (is_sound) row.tag = ParseView(view_text, file_);
+  }
+
+  static std::string FormatPoint(const char* x,
+                                 const char* y,
+                                 const char* z,
+                                 const Eigen::Vector3d& point) {
+    return std::string(x) + " " + FormatNumber(point.x()) + " " + y + " " +
+           FormatNumber(point.y()) + " " + z + " " + FormatNumber(point.z()) + " ";
+  }
+
+  std::filesystem::path file_;
+  const PolygonModel& model_;
+  Eigen::Vector3d center_in_site_;
+  std::map<std::string, size_t> columns_;
+  std::set<std::string> names_;
+  bool has_angles_ = false;
+  bool is_geodetic_ = false;
+  TagTable table_;
+};
+
+}  // namespace
+
+Eigen::Vector3d SiteFromGeodetic(const PolygonModel& model,
+                                 double latitude_deg,
+                                 double longitude_deg,
+                                 double height_m) {
+  const Georeference& place = *model.georeference;
+  const Eigen::Vector3d offset =
+      EarthCentred(latitude_deg, longitude_deg, height_m) -
+      EarthCentred(place.latitude_deg, place.longitude_deg, place.height_m);
+  const double latitude = RadiansFromDegrees(place.latitude_deg);
+  const double longitude = RadiansFromDegrees(place.longitude_deg);
+  const Eigen::Vector3d east_axis(-std::sin(longitude), std::cos(longitude), 0);
+  const Eigen::Vector3d up_axis(std::cos(latitude) * std::cos(longitude),
+                                std::cos(latitude) * std::sin(longitude),
+                                std::sin(latitude));
+  const double east = east_axis.dot(offset);
+  const double north = up_axis.cross(east_axis).dot(offset);
+  // The model's +Y in `world` points along this bearing, clockwise from true north.
+  const double bearing = RadiansFromDegrees(place.north_deg);
+  const Eigen::Vector3d in_world(east * std::cos(bearing) - north * std::sin(bearing),
+                                 east * std::sin(bearing) + north * std::cos(bearing),
+                                 up_axis.dot(offset));
+  return SiteFromWorld(in_world / MetresPerUnit(model.unit));
+}
+
+TagTable ReadTagTable(const std::filesystem::path& file, const PolygonModel& model) {
+  return TableReader(file, model).Read();
+}
+
+}  // namespace groundglass

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/formats/text_encoding.h"
+
+#include "scene/text.h"
+
+#include <utf8proc.h>
+
+#include <cstdlib>
+#include <memory>
+
+namespace groundglass {
+namespace {
+
+const utf8proc_uint8_t* Data(std::string_view text) {
+  return reinterpret_cast<const utf8proc_uint8_t*>(text.data());
+}
+
+void Append(utf8proc_int32_t character, std::string& text) {
+  utf8proc_uint8_t bytes[4];
+  const utf8proc_ssize_t size = utf8proc_encode_char(character, bytes);
+  text.append(reinterpret_cast<const char*>(bytes), static_cast<size_t>(size));
+}
+
+std::string Utf8FromUtf16(std::string_view bytes, bool is_big_endian) {
+  const auto unit = [&](size_t at) {
+    const auto first = static_cast<uint8_t>(bytes[at]);
+    const auto second = static_cast<uint8_t>(bytes[at + 1]);
+    return static_cast<uint32_t>(is_big_endian ? first << 8 | second : second << 8 | first);
+  };
+  std::string text;
+  for (size_t at = 0; at + 1 < bytes.size(); at += 2) {
+    uint32_t character = unit(at);
+    if (character >= 0xD800 && character < 0xDC00 && at + 3 < bytes.size()) {
+      const uint32_t low = unit(at + 2);
+      if (low >= 0xDC00 && low < 0xE000) {
+        character = 0x10000 + ((character - 0xD800) << 10) + (low - 0xDC00);
+        at += 2;
+      }
+    }
+    if (character >= 0xD800 && character < 0xE000) character = 0xFFFD;
+    Append(static_cast<utf8proc_int32_t>(character), text);
+  }
+  return text;
+}
+
+std::string Utf8FromWindows1252(std::string_view bytes) {
+  // Where it differs from Latin-1: 0x80 to 0x9F.
+  constexpr uint16_t kUpper[32] = {0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
+                                   0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D,   0x017D, 0x8F,
+                                   0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
+                                   0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<uint8_t>(c);
+    Append(byte >= 0x80 && byte < 0xA0 ? kUpper[byte - 0x80] : byte, text);
+  }
+  return text;
+}
+
+}  // namespace
+
+bool IsUtf8(std::string_view bytes) {
+  size_t at = 0;
+  while (at < bytes.size()) {
+    utf8proc_int32_t character = 0;
+    const auto left = static_cast<utf8proc_ssize_t>(bytes.size() - at);
+    const utf8proc_ssize_t size = utf8proc_iterate(Data(bytes) + at, left, &character);
+    if (size < 1) return false;
+    at += static_cast<size_t>(size);
+  }
+  return true;
+}
+
+Utf8Text Utf8FromBytes(std::string_view bytes) {
+  if (bytes.substr(0, 2) == "\xFF\xFE") return {Utf8FromUtf16(bytes.substr(2), false), false};
+  if (bytes.substr(0, 2) == "\xFE\xFF") return {Utf8FromUtf16(bytes.substr(2), true), false};
+  if (bytes.substr(0, 3) == "\xEF\xBB\xBF") bytes.remove_prefix(3);
+  // UTF-16 without its mark: every other byte of plain letters is zero.
+  if (bytes.size() > 3 && bytes[0] != 0 && bytes[1] == 0 && bytes[3] == 0) {
+    return {Utf8FromUtf16(bytes, false), false};
+  }
+  if (bytes.size() > 3 && bytes[0] == 0 && bytes[1] != 0 && bytes[2] == 0) {
+    return {Utf8FromUtf16(bytes, true), false};
+  }
+  if (IsUtf8(bytes)) return {std::string(bytes), false};
+  return {Utf8FromWindows1252(bytes), true};
+}
+
+std::string FoldedName(std::string_view name) {
+  const std::string text = IsUtf8(name) ? std::string(name) : Utf8FromWindows1252(name);
+  utf8proc_uint8_t* folded = nullptr;
+  const utf8proc_ssize_t size = utf8proc_map(
+      Data(text),
+      static_cast<utf8proc_ssize_t>(text.size()),
+      &folded,
+      static_cast<utf8proc_option_t>(UTF8PROC_STABLE | UTF8PROC_COMPOSE | UTF8PROC_CASEFOLD));
+  if (size < 0) return LowerCase(text);
+  const std::unique_ptr<utf8proc_uint8_t, decltype(&std::free)> owner(folded, std::free);
+  return {reinterpret_cast<const char*>(folded), static_cast<size_t>(size)};
+}
+
+}  // namespace groundglass

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/formats/image_io.h"
+#include "scene/length_unit.h"
+
+#include <optional>
+#include <string>
+
+namespace groundglass {
+
+// A view file to be filled in (docs/view-file.md): every key with what it means, `?` where a number
+// is to be written, the aspect from the picture's size. Until then ReadView names what is missing.
+// focal_length_mm: of the lens, as for a 35 mm frame; the view angle is left open without it.
+std::string FormatViewTemplate(const std::string& image_name,
+                               const ImageSize& size,
+                               LengthUnit unit,
+                               const std::optional<double>& focal_length_mm);
+
+// The angle across a frame of this aspect behind such a lens: the diagonal is what is the same.
+double ViewAngleDegFromFocalLength(double focal_length_mm, double aspect);
+
+}  // namespace groundglass

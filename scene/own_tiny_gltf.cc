@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// Part of Groundglass.
-#define TINYGLTF_IMPLEMENTATION
-#include "scene/own_tiny_gltf.h"

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "report/report.h"
+
+#include "report/report_html.h"
+#include "scene/error.h"
+#include "scene/formats/atomic_file.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/registration_io.h"
+#include "tests/support/spoilt_options.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/viewer/sample_models.h"
+#include "viewer/overlay.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(ReportHtml, Base64IsThatOfRfc4648) {
+  EXPECT_EQ(EncodeBase64(""), "");
+  EXPECT_EQ(EncodeBase64("f"), "Zg==");
+  EXPECT_EQ(EncodeBase64("fo"), "Zm8=");
+  EXPECT_EQ(EncodeBase64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(EncodeBase64(std::string("\xff\xfe\x00", 3)), "//4A");
+}
+
+TEST(ReportHtml, NumbersHaveTheDecimalsThatTheirDeviationGivesSenseTo) {
+  EXPECT_EQ(FormatRounded(231.4187301, 0.0312), "231.419");
+  EXPECT_EQ(FormatRounded(-2.5, 0.4), "\u22122.50");
+  EXPECT_EQ(FormatRounded(1504.3, 120), "1504");
+  EXPECT_EQ(FormatRounded(3.14159265), "3.142");
+  EXPECT_EQ(FormatRounded(-0.0001, 0.1), "0.00");  // no minus before nothing
+  EXPECT_EQ(FormatSigma(0.0312), "0.031");
+}
+
+TEST(ReportHtml, SharesAreNeverFalselyWhole) {
+  EXPECT_EQ(FormatShare(0), "0 %");
+  EXPECT_EQ(FormatShare(0.004), "&lt; 1 %");
+  EXPECT_EQ(FormatShare(0.873), "87 %");
+  EXPECT_EQ(FormatShare(0.9999), "&gt; 99 %");
+  EXPECT_EQ(FormatShare(1), "100 %");
+}
+
+class ReportOf : public testing::Test {
+ protected:
+  ReportOf() { fs::create_directories(folder_); }
+
+  void WriteRegistrations() {
+    Registration good;
+    good.name = "s1";
+    good.width_px = 300;
+    good.height_px = 200;
+    good.verdict = Verdict::kAccepted;
+    good.measured.position_in_site = {0, 11.5, 0};
+    good.measured.lookat_in_site = {0, 0, 0};
+    good.corrected = good.measured;
+    good.corrected.position_in_site.x() = 0.25;
+    good.sigmas[0] = 0.031;
+    good.prior_sigmas[0] = 0.1;
+    good.undetermined = {"x"};
+    good.num_samples = 812;
+    good.rms_px = 0.43;
+    good.moved_px = 12.3;
+    good.vertex_sigma_px = 0.7;
+    Registration bad = good;
+    bad.name = "s2";
+    bad.verdict = Verdict::kRejected;
+    bad.reasons = {"no fit <better> than chance & none near"};
+    bad.corrected = bad.measured;
+    WriteFileAtomically(folder_ / "registration.json", FormatRegistrations({good, bad}));
+  }
+  void WriteCoverage() {
+    WriteFileAtomically(folder_ / "coverage.json",
+                        R"({"covered_share": 0.62, "faces": [
+          {"face": 1, "name": "south", "area": 8, "covered_area": 8, "texels": 100,
+           "covered_texels": 100, "texel_size": 0.05,
+           "sources": [{"photograph": "s1", "texels": 97, "footprint": 0.04},
+                       {"photograph": "s3", "texels": 3, "footprint": 0.09}]},
+          {"face": 2, "name": "north", "area": 8, "covered_area": 0, "texels": 100,
+           "covered_texels": 0, "texel_size": 0.05, "sources": [],
+           "missing": {"area": 8, "centre": [1, 2, 3], "stand_at": [12.3, -4.1, 5]}},
+          {"face": 3, "name": "yard", "area": 8, "covered_area": 0, "texels": 100,
+           "covered_texels": 0, "texel_size": 0.05, "sources": [],
+           "missing": {"area": 8, "centre": [1, 2, 3]}}]})");
+  }
+
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_ / "hall";
+};
+
+TEST_F(ReportOf, AnEmptyFolderIsAnError) {
+  try {
+    MakeReport(folder_);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("neither registration.json nor coverage.json"));
+  }
+}
+
+TEST_F(ReportOf, TellsVerdictsReasonsAndWhatMoved) {
+  WriteRegistrations();
+  const std::string html = MakeReport(folder_);
+  EXPECT_THAT(html, HasSubstr("<h1>hall</h1>"));
+  EXPECT_THAT(html, HasSubstr("<span class=\"verdict rejected\">rejected</span>"));
+  EXPECT_THAT(html, HasSubstr("no fit &lt;better&gt; than chance &amp; none near"));
+  EXPECT_THAT(html, HasSubstr("0.250"));                     // x, corrected
+  EXPECT_THAT(html, HasSubstr("<td class=\"n\">2.5</td>"));  // in expected errors
+  EXPECT_THAT(html, HasSubstr("no better known than before"));
+  EXPECT_THAT(html,
+              HasSubstr("<td class=\"n\">0.7</td>"));  // how well the model's points are known
+}
+
+TEST_F(ReportOf, ListsWhereTheModelIsOffInSite) {
+  WriteRegistrations();
+  EXPECT_THAT(MakeReport(folder_), Not(HasSubstr("Where the model is off")));
+  const ModelError cornice = {"east wall / roof", {}, {1, 0, 0}, {0, 0.25, -0.3}, 0.05, 4};
+  WriteFileAtomically(
+      folder_ / "registration.json",
+      FormatRegistrations(ReadRegistrations(folder_ / "registration.json"), {cornice}));
+  const std::string html = MakeReport(folder_);
+  EXPECT_THAT(html, HasSubstr("Where the model is off"));
+  EXPECT_THAT(html, HasSubstr("<td>east wall / roof</td>"));
+  EXPECT_THAT(html, HasSubstr("<td class=\"n\">\u22120.250</td>"));  // south is positive
+}
+
+TEST_F(ReportOf, PointsOutFacesThatNobodySees) {
+  WriteCoverage();
+  const std::string html = MakeReport(folder_);
+  EXPECT_THAT(html, HasSubstr("62 %"));
+  EXPECT_THAT(html, HasSubstr("2 faces are seen by less than half"));
+  EXPECT_THAT(html, HasSubstr("<td>12, \u22124, 5</td>"));  // where to stand
+  EXPECT_THAT(html, HasSubstr("where none is named, none was found"));
+  EXPECT_THAT(html,
+              HasSubstr("s1 <span class=\"soft\">97 %</span> <span class=\"soft\">and 1 more"));
+}
+
+TEST_F(ReportOf, HoldsItsPicturesAndAsksForNothingElse) {
+  WriteRegistrations();
+  WriteSrgb8(folder_ / "overlays" / "s1.jpg", MakePlainPage(300, 200, 120, 90, 60));
+  WriteSrgb8(folder_ / "renders" / "from_the_east.png", MakePlainPage(60, 40, 9, 9, 9));
+  const std::string html = MakeReport(folder_);
+  EXPECT_THAT(html, HasSubstr("alt=\"new view from_the_east\" src=\"data:image/jpeg;base64,/9j/"));
+  EXPECT_THAT(html, HasSubstr("alt=\"s1 with the model's edges\""));
+  for (const char* elsewhere : {"http:", "https:", "<script", "<link", "url(", "@import"}) {
+    EXPECT_THAT(html, Not(HasSubstr(elsewhere)));
+  }
+}
+
+TEST_F(ReportOf, ShowsBeforeAndAfterWhenItHasTheScene) {
+  WriteRegistrations();
+  Scene scene;
+  scene.folder = folder_.parent_path() / "parish hall";
+  scene.model = MakeCheckeredBox().model;
+  Photograph photograph;
+  photograph.name = "s1";
+  photograph.image_file = folder_.parent_path() / "s1.png";
+  WriteSrgb8(photograph.image_file, MakePlainPage(300, 200, 120, 90, 60));
+  scene.photographs = {photograph};
+  const std::string html =
+      MakeReport(folder_, &scene, {.draw_edges = MakeEdgeDrawing(scene.model)});
+  EXPECT_THAT(html, HasSubstr("<h1>parish hall</h1>"));
+  EXPECT_THAT(html, HasSubstr("<figcaption>as measured</figcaption>"));
+  EXPECT_THAT(html, HasSubstr("<figcaption>corrected</figcaption>"));
+  EXPECT_THAT(html, HasSubstr(" ft"));
+}
+
+TEST_F(ReportOf, DamagedCoverageIsNamed) {
+  WriteFileAtomically(folder_ / "coverage.json", std::string("{\"faces\": ["));
+  try {
+    MakeReport(folder_);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("coverage.json: is not JSON"));
+  }
+}
+
+TEST(ReportOptions, CheckNamesEachField) {
+  [[maybe_unused]] const auto& [title, picture, draw] = ReportOptions();
+  ExpectCheckNamesEach<ReportOptions>({
+      {"picture_width_px", [](auto& o) { o.picture_width_px = 0; }},
+  });
+}
+
+}  // namespace
+}  // namespace groundglass
