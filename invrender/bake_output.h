@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/inputs/bake_photograph.h"
+#include "invrender/bake.h"
 #include "scene/formats/colmap_io.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/registration.h"

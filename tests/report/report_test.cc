@@ -162,8 +162,9 @@ TEST_F(ReportOf, ShowsBeforeAndAfterWhenItHasTheScene) {
   photograph.image_file = folder_.parent_path() / "s1.png";
   WriteSrgb8(photograph.image_file, MakePlainPage(300, 200, 120, 90, 60));
   scene.photographs = {photograph};
-  const std::string html =
-      MakeReport(folder_, &scene, {.draw_edges = MakeEdgeDrawing(scene.model)});
+  ReportOptions options;
+  options.draw_edges = MakeEdgeDrawing(scene.model);
+  const std::string html = MakeReport(folder_, &scene, options);
   EXPECT_THAT(html, HasSubstr("<h1>parish hall</h1>"));
   EXPECT_THAT(html, HasSubstr("<figcaption>as measured</figcaption>"));
   EXPECT_THAT(html, HasSubstr("<figcaption>corrected</figcaption>"));

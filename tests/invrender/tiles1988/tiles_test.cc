@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "invrender/tiles1988/tiles.h"
 
+#include "invrender/photos/face_mask.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/srgb.h"
