@@ -4,11 +4,13 @@
 
 #include "datasets-synthetic/occluders.h"
 #include "evaluate/evaluate.h"
+#include "invrender/photos/face_mask.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/model_io.h"
 #include "scene/formats/textured_model_io.h"
 #include "scene/srgb.h"
+#include "scene/visibility.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
