@@ -10,7 +10,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <regex>
 #include <system_error>
 #include <utility>
 
@@ -103,9 +102,20 @@ void WriteBesideAndRename(const fs::path& file, const Write& write) {
 
 }  // namespace
 
+// ".NAME.partPROCESS-COUNT", and perhaps an extension.
 bool IsTemporaryName(const fs::path& file) {
-  static const std::regex pattern(R"(\..*\.part[0-9]+-[0-9]+(\.[^.]*)?)");
-  return std::regex_match(file.filename().string(), pattern);
+  const std::string name = file.filename().string();
+  constexpr std::string_view kPart = ".part";
+  const size_t part = name.rfind(kPart);
+  if (name.empty() || name[0] != '.' || part == std::string::npos || part == 0) return false;
+  size_t at = part + kPart.size();
+  const auto skip_digits = [&] {
+    const size_t first = at;
+    while (at < name.size() && name[at] >= '0' && name[at] <= '9') ++at;
+    return at > first;
+  };
+  if (!skip_digits() || at == name.size() || name[at++] != '-' || !skip_digits()) return false;
+  return at == name.size() || (name[at] == '.' && name.find('.', at + 1) == std::string::npos);
 }
 
 void WriteFileAtomically(const fs::path& file, std::string_view bytes) {

@@ -123,5 +123,24 @@ TEST(WriteFileAtomically, MakesFoldersAndReplacesWhatWasThere) {
               HasSubstr("cannot make this folder"));
 }
 
+TEST(IsTemporaryName, KnowsOurOwnNamesAndNobodyElses) {
+  for (const char* ours :
+       {".a.part12-0.png", ".a.b.part1-23.jpg", ".report.part7-1", "x/.a.part1-2.c"}) {
+    EXPECT_TRUE(IsTemporaryName(ours)) << ours;
+  }
+  for (const char* theirs : {"a.part12-0.png",
+                             ".a.part12.png",
+                             ".a.part-0.png",
+                             ".a.part12-.png",
+                             ".a.part1-2.tar.gz",
+                             ".part1-2",
+                             ".a.partx1-2",
+                             ".a.part1-2x",
+                             ".a",
+                             ""}) {
+    EXPECT_FALSE(IsTemporaryName(theirs)) << theirs;
+  }
+}
+
 }  // namespace
 }  // namespace groundglass
