@@ -105,6 +105,11 @@ int RunCheck(const CheckArguments& arguments) {
   options.model = arguments.model_arguments.Options();
   CheckReport report;
   report.check = CheckScene(arguments.scene, options);
+  if (arguments.model.empty()) {
+    Scene& scene = report.check.scene;
+    const auto others = DescribeOtherModels(arguments.scene, scene.model_file);
+    if (others && !scene.model_file.empty()) scene.warnings.push_back(*others);
+  }
   if (arguments.with_templates) return WriteTemplates(report.check.scene, arguments);
   report.oddities = FindOddities(report.check.scene, options.model);
   // Overlays show best where a tag is off, and what is at fault with the others.

@@ -3,6 +3,7 @@
 #include "cli/check_report.h"
 
 #include "scene/advice/standpoint.h"
+#include "scene/formats/text_encoding.h"
 
 #include <nlohmann/json.hpp>
 
@@ -52,13 +53,12 @@ std::string FormatCameraTable(const Scene& scene) {
   const std::vector<Standpoint> standpoints = FindStandpoints(scene);
   if (standpoints.empty()) return "";
   const std::string unit = UnitName(scene.model.unit);
-  size_t width = 10;
+  int width = 10;
   for (const Photograph& photograph : scene.photographs) {
-    width = std::max(width, photograph.name.size());
+    width = std::max(width, DisplayWidth(photograph.name));
   }
-  std::string table = Printed("\n%-*s  %9s %9s %8s  %-8s %9s  %6s  %s\n",
-                              static_cast<int>(width),
-                              "photograph",
+  std::string table = Printed("\n%s  %9s %9s %8s  %-8s %9s  %6s  %s\n",
+                              PaddedTo(width, "photograph").c_str(),
                               "x",
                               "y",
                               ("z, " + unit).c_str(),
@@ -68,9 +68,8 @@ std::string FormatCameraTable(const Scene& scene) {
                               "looks at");
   for (size_t i = 0; i < standpoints.size(); ++i) {
     const Standpoint& standpoint = standpoints[i];
-    table += Printed("%-*s  %9.1f %9.1f %8.1f  %-8s %9.4g  %6.1f  %s\n",
-                     static_cast<int>(width),
-                     scene.photographs[i].name.c_str(),
+    table += Printed("%s  %9.1f %9.1f %8.1f  %-8s %9.4g  %6.1f  %s\n",
+                     PaddedTo(width, scene.photographs[i].name).c_str(),
                      standpoint.position_in_site.x(),
                      standpoint.position_in_site.y(),
                      standpoint.position_in_site.z(),

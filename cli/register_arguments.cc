@@ -8,6 +8,7 @@
 #include "scene/formats/pose_check.h"
 #include "scene/formats/registration_io.h"
 #include "scene/formats/select_photographs.h"
+#include "scene/formats/text_encoding.h"
 #include "scene/frames.h"
 
 #include <nlohmann/json.hpp>
@@ -150,10 +151,14 @@ void PrintRegistrations(const std::vector<Registration>& registrations) {
     if (value) std::snprintf(text, sizeof text, format, *value);
     return std::string(text);
   };
+  int width = 12;
+  for (const Registration& registration : registrations) {
+    width = std::max(width, DisplayWidth(registration.name));
+  }
   const auto print = [](const auto&... columns) {
-    std::printf("%-12s %-10s %9s %8s %9s %8s %8s  %s\n", columns...);
+    std::printf("%s %-10s %9s %8s %9s %8s %8s  %s\n", columns...);
   };
-  print("photograph",
+  print(PaddedTo(width, "photograph").c_str(),
         "verdict",
         "moved px",
         "rms px",
@@ -170,7 +175,7 @@ void PrintRegistrations(const std::vector<Registration>& registrations) {
     const auto if_readable = [&](double value) {
       return is_readable ? std::optional(value) : std::nullopt;
     };
-    print(registration.name.c_str(),
+    print(PaddedTo(width, registration.name).c_str(),
           std::string(VerdictName(registration.verdict)).c_str(),
           number(if_readable(registration.moved_px), "%.1f").c_str(),
           number(registration.rms_px, "%.2f").c_str(),

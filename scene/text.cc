@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 namespace groundglass {
@@ -96,7 +97,11 @@ std::optional<long long> ParseInteger(std::string_view word) {
 
 std::string FormatNumber(double value) {
   char digits[64];
-  const auto result = std::to_chars(digits, digits + sizeof(digits), value);
+  // An easting is 500000 to people, not 5e+05.
+  const bool is_plain = std::abs(value) >= 1 && std::abs(value) < 1e15;
+  const auto result =
+      is_plain ? std::to_chars(digits, digits + sizeof(digits), value, std::chars_format::fixed)
+               : std::to_chars(digits, digits + sizeof(digits), value);
   return std::string(digits, result.ptr);
 }
 

@@ -25,8 +25,9 @@ std::string ShellWord(const std::filesystem::path& path) {
   return quoted + "'";
 }
 
-std::string TagFile(const Scene& scene, const Photograph& photograph) {
-  return (photograph.view_file.empty() ? scene.folder / "tags.csv" : photograph.view_file).string();
+std::string TagPlace(const Scene& scene, const Photograph& photograph) {
+  if (!photograph.view_file.empty()) return photograph.view_file.string();
+  return (scene.folder / "tags.csv").string() + ": " + photograph.name;
 }
 
 std::string ListNames(const std::vector<std::string>& names) {

@@ -72,7 +72,7 @@ void AdviseOnAspect(const AdviceContext& context, const Photograph& photograph) 
                " and in v the angle across the upright frame";
     }
   }
-  context.Add(Advice::Severity::kDetail, TagFile(context.scene, photograph), message, remedy);
+  context.Add(Advice::Severity::kDetail, TagPlace(context.scene, photograph), message, remedy);
 }
 
 // The angle across a frame whose long side, up and down, has this one.
@@ -101,7 +101,7 @@ void AdviseOnUprightAngles(const AdviceContext& context) {
   if (!first) return;
   const double angle_deg = first->tag.view_angle_deg;
   context.Add(Advice::Severity::kDetail,
-              TagFile(context.scene, *first),
+              TagPlace(context.scene, *first),
               "v " + FormatNumber(angle_deg) + " in upright photographs (" + ListNames(names) +
                   ") as in those that lie: it suits as the vertical angle, and v is the "
                   "horizontal one",

@@ -163,7 +163,7 @@ void AdviseOnPictures(const AdviceContext& context) {
     return;
   }
   for (size_t i = 0; i < fits.size(); ++i) {
-    const std::string tag_file = TagFile(context.scene, photographs[i]);
+    const std::string tag_file = TagPlace(context.scene, photographs[i]);
     if (HasClearSlip(fits[i]) && !IsTold(context, tag_file)) {
       context.Add(Advice::Severity::kDetail,
                   tag_file,

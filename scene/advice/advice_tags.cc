@@ -113,7 +113,7 @@ void AdviseOnTags(const AdviceContext& context) {
     return;
   }
   for (size_t i = 0; i < photographs.size(); ++i) {
-    const std::string file = TagFile(context.scene, photographs[i]);
+    const std::string file = TagPlace(context.scene, photographs[i]);
     const std::string wrong = FindWrong(context, photographs[i], context.standpoints[i]);
     if (slips[i]) {
       context.Add(

@@ -11,6 +11,7 @@
 #include "scene/text.h"
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -102,10 +103,10 @@ class ObjReader {
   // end.
   static int ReadIndex(std::string_view word, size_t count) {
     const std::optional<long long> number = ParseInteger(word);
-    if (!number) return -1;
-    const long long size = static_cast<long long>(count);
-    const long long index = *number < 0 && *number >= -size ? size + *number : *number - 1;
-    return index < 0 || index > 2147483646 ? -1 : static_cast<int>(index);
+    const auto size = static_cast<long long>(count);
+    if (!number || *number < -size || *number > std::numeric_limits<int>::max()) return -1;
+    // 0 is no point's number.
+    return static_cast<int>(*number < 0 ? size + *number : *number - 1);
   }
 
   void ReadFaceLine() {

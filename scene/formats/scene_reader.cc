@@ -70,6 +70,16 @@ SceneReading SceneReader::Read() {
   return {std::move(result_), std::move(scene_faults_), std::move(stray_faults)};
 }
 
+// The models of other names in the folder, and what to do with them; empty if there are none.
+std::string SceneReader::OtherModels() const {
+  std::string list;
+  for (const fs::path& file : ListFiles(folder_)) {
+    if (!HasExtension(file, kModelExtensions)) continue;
+    list += (list.empty() ? "" : ", ") + Quote(file.filename().string());
+  }
+  return list.empty() ? "" : "; there is " + list + ": rename it, or choose it with --model";
+}
+
 void SceneReader::ReadTheModel() {
   fs::path& file = result_.scene.model_file;
   if (options_.model_file) {
@@ -82,7 +92,7 @@ void SceneReader::ReadTheModel() {
       }
     }
     if (found.empty()) {
-      Fault(Error(folder_, std::string("no model; expected ") + kModelNames).what());
+      Fault(Error(folder_, "no model; expected " + (kModelNames + OtherModels())).what());
       return;
     }
     if (found.size() > 1) {

@@ -55,6 +55,7 @@ class SceneReader {
     result_.faults.push_back(line);
     scene_faults_.push_back(line);
   }
+  std::string OtherModels() const;
   // Of one photograph, its tag or its masks.
   void FaultOf(const std::string& name, const std::string& line) {
     result_.faults.push_back(line);

@@ -46,7 +46,9 @@ std::vector<std::string> FindPhotographNames(const Scene& scene,
     }
     if (!index) {
       std::string all;
-      for (const PhotographName& photograph : known) all += " " + photograph.name;
+      for (const PhotographName& photograph : known) {
+        all += (all.empty() ? " " : ", ") + photograph.name;
+      }
       throw Error(place + ": no photograph is called " + Quote(name) + NearestName(name, known) +
                   "; there are" + all);
     }

@@ -6,6 +6,7 @@
 
 #include <utf8proc.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 
@@ -98,6 +99,24 @@ std::string FoldedName(std::string_view name) {
   if (size < 0) return LowerCase(text);
   const std::unique_ptr<utf8proc_uint8_t, decltype(&std::free)> owner(folded, std::free);
   return {reinterpret_cast<const char*>(folded), static_cast<size_t>(size)};
+}
+
+int DisplayWidth(std::string_view utf8) {
+  int width = 0;
+  for (size_t at = 0; at < utf8.size();) {
+    utf8proc_int32_t character = 0;
+    const auto left = static_cast<utf8proc_ssize_t>(utf8.size() - at);
+    const utf8proc_ssize_t size = utf8proc_iterate(Data(utf8) + at, left, &character);
+    // A byte that is no letter is shown as one.
+    width += size > 0 ? utf8proc_charwidth(character) : 1;
+    at += size > 0 ? static_cast<size_t>(size) : 1;
+  }
+  return width;
+}
+
+std::string PaddedTo(int width, std::string_view utf8) {
+  const int missing = std::max(0, width - DisplayWidth(utf8));
+  return std::string(utf8) + std::string(static_cast<size_t>(missing), ' ');
 }
 
 }  // namespace groundglass

@@ -17,6 +17,11 @@ struct Utf8Text {
 };
 Utf8Text Utf8FromBytes(std::string_view bytes);
 
+// How many columns of a terminal a text takes.
+int DisplayWidth(std::string_view utf8);
+// The text with blanks behind it, so that it takes at least this many columns.
+std::string PaddedTo(int width, std::string_view utf8);
+
 // A name such that two names that a person takes for the same are equal: letters composed in one
 // way (macOS parts "ü" in two) and without upper case.
 std::string FoldedName(std::string_view name);

@@ -42,6 +42,8 @@ TEST(Obj, AFaceWithACornerThatIsNoPointIsLeftOut) {
            std::pair("1 2 99", "point 99 is outside 1 to 6"),
            std::pair("0 1 2", "point 0 is outside 1 to 6"),
            std::pair("1 2 -7", "point -7 counts back beyond the first; there are 6"),
+           std::pair("1 2 -9223372036854775808",
+                     "point -9223372036854775808 counts back beyond the first; there are 6"),
            std::pair("1 2x 3", "'2x' is not the number of a point; there are 6"),
            std::pair("1 99999999999999999999 3", "point 99999999999999999999 is outside 1 to 6"),
            std::pair("1 4294967297 3", "point 4294967297 is outside 1 to 6"),
