@@ -64,7 +64,13 @@ WorkingSize FindWorkingSize(const Image8& grey8, int max_width_px) {
   return size;
 }
 
-EdgeEvidence FindEvidence(const PhotographInput& photograph, const WorkingSize& size) {
+// The photograph and its mask at the size at which it is registered.
+struct WorkingPicture {
+  Image8 grey8;
+  Image8 ignore;
+};
+
+WorkingPicture Reduced(const PhotographInput& photograph, const WorkingSize& size) {
   if (size.width_px == photograph.grey8.width) return {photograph.grey8, photograph.ignore};
   return {ReducedInLight(photograph.grey8, size.width_px, size.height_px),
           ResizedMask(photograph.ignore, size.width_px, size.height_px)};
@@ -74,6 +80,7 @@ EdgeEvidence FindEvidence(const PhotographInput& photograph, const WorkingSize& 
 AlignedPhotograph Align(const Solution& best,
                         const Rival& rival,
                         const CameraPrior& prior,
+                        const std::shared_ptr<const TiePicture>& picture,
                         const EdgeEvidence& evidence,
                         double scale,
                         const RegisterOptions& options) {
@@ -81,6 +88,7 @@ AlignedPhotograph Align(const Solution& best,
   const ParameterProjection projection = prior.ProjectionAt(refined.whitened);
   AlignedPhotograph aligned;
   aligned.prior = prior;
+  aligned.picture = picture;
   aligned.found = FindCandidateSamples(refined.samples,
                                        evidence,
                                        prior,
@@ -92,7 +100,10 @@ AlignedPhotograph Align(const Solution& best,
   aligned.noise_px = refined.noise_px;
   aligned.score_samples = FindScoreSamples(
       refined.samples, projection, evidence, options.joint.start_range_px, options.solutions.score);
-  if (rival.solution) aligned.rival_nats = rival.solution->TotalScore();
+  if (rival.solution) {
+    aligned.rival_nats = rival.solution->TotalScore();
+    aligned.rival_whitened = rival.solution->refinement.whitened;
+  }
   aligned.rival_distance_px = rival.distance_px / scale;
   return aligned;
 }
@@ -109,7 +120,8 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
 
   // What is known before the photograph is looked at, and what it shows.
   const WorkingSize size = FindWorkingSize(photograph.grey8, options.max_width_px);
-  const EdgeEvidence evidence = FindEvidence(photograph, size);
+  const WorkingPicture picture = Reduced(photograph, size);
+  const EdgeEvidence evidence(picture.grey8, picture.ignore);
   const CameraPrior prior = MakeCameraPrior(photograph.measured,
                                             size.width_px,
                                             size.height_px,
@@ -149,8 +161,15 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   ApplyJudgement(JudgeInnovation(refined.whitened, prior, options.verdict), registration);
   registration.undetermined = FindUndetermined(registration.sigmas, prior, options.verdict);
   ApplyJudgement(JudgeControlPoints(points, projection, size.scale, options.verdict), registration);
-  if (registration.verdict == Verdict::kAccepted && points.empty()) {
-    alignment.aligned = Align(best, rival, prior, evidence, size.scale, options);
+  if (!HasCorrection(registration.verdict) || !points.empty()) return alignment;
+  const auto tie_picture =
+      std::make_shared<const TiePicture>(picture.grey8, picture.ignore, options.ties.num_levels);
+  const auto align = [&](const Solution& solution, const Rival& elsewhere) {
+    return Align(solution, elsewhere, prior, tie_picture, evidence, size.scale, options);
+  };
+  alignment.aligned = align(best, rival);
+  if (registration.verdict == Verdict::kReview && rival.solution) {
+    alignment.rival = align(*rival.solution, {&best, rival.distance_px});
   }
   return alignment;
 }

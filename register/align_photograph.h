@@ -27,7 +27,10 @@ struct PhotographInput {
 // verdict does not heed yet how certain the camera is (FinishVerdict).
 struct PhotographAlignment {
   Registration registration;
-  AlignedPhotograph aligned;  // empty unless the verdict is `accepted`
+  // As it was found; empty where the photograph was rejected, or a person pointed at places.
+  AlignedPhotograph aligned = {};
+  // Of a photograph in `review`, as its best rival has it; nothing if there is none.
+  std::optional<AlignedPhotograph> rival = {};
 };
 
 // Corrects one photograph's tag against the model's edges. Not converging is a result (verdict,

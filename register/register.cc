@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "register/register.h"
 
-#include "register/refine_accepted.h"
+#include "register/refine_set.h"
 #include "scene/error.h"
 #include "scene/formats/ignore_mask.h"
 #include "scene/formats/image_io.h"
@@ -107,7 +107,7 @@ RegisteredScene RegisterScene(const Scene& scene,
   if (!options.independent) {
     try {
       registered.model_errors = FindModelErrors(
-          edge_model, RefineAccepted(edge_model, options, alignments), options.model_errors);
+          edge_model, RefineSet(edge_model, options, alignments), options.model_errors);
     } catch (const Error& error) {
       registered.warnings.push_back(
           std::string("the photographs stay as they were found one by one, since they could not "

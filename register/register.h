@@ -30,7 +30,7 @@
 //             FindModelErrors           displaced edges          -> lines that the model has wrong
 //   verdict/  Judge...                  score, change, precision -> accepted, review, rejected, why
 //
-// AlignPhotograph runs them for one photograph, RefineAccepted for the set; RegisterScene is both.
+// AlignPhotograph runs them for one photograph, RefineSet for all of them; RegisterScene is both.
 namespace groundglass {
 
 struct RegisteredScene {
@@ -40,7 +40,7 @@ struct RegisteredScene {
 };
 
 // Corrects the tags of a scene's photographs, on every core: each by itself, then those that are
-// accepted together (RefineAccepted), unless options.independent. The same whatever the number of
+// accepted together (RefineSet), unless options.independent. The same whatever the number of
 // threads. Reads the photographs and their masks; one that cannot be read, or whose solution fails,
 // gets a verdict with the reason. If the common solution fails, each photograph's own is kept, with
 // a warning.

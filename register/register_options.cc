@@ -10,10 +10,13 @@ void RegisterOptions::Check() const {
   const std::string path = "registration options: ";
   prior.Check();
   solutions.Check(path + "solutions.");
+  ties.Check(path + "ties.");
+  tie_support.Check(path + "tie_support.");
   joint.Check(path + "joint.");
   model_errors.Check(path + "model_errors.");
   verdict.Check(path + "verdict.");
   overrule.Check();
+  CheckFromTo(num_tie_rounds, 1, 100, path + "num_tie_rounds");
   CheckFromTo(max_width_px, 64, 100000, path + "max_width_px");
   for (const ControlPoint& point : control_points) {
     const std::string of = path + "control_points of " + point.photograph + ": ";

@@ -7,6 +7,7 @@
 #include "register/joint/joint_refinement.h"
 #include "register/joint/model_errors.h"
 #include "register/refine/find_solutions.h"
+#include "register/ties/tie_support.h"
 #include "register/verdict/overrule.h"
 #include "register/verdict/verdict.h"
 
@@ -19,6 +20,8 @@ namespace groundglass {
 struct RegisterOptions {
   PriorOptions prior;
   SolutionOptions solutions;
+  TieOptions ties;
+  TieSupportOptions tie_support;
   JointOptions joint;
   ModelErrorOptions model_errors;
   VerdictOptions verdict;
@@ -31,10 +34,16 @@ struct RegisterOptions {
   int max_width_px = 1600;
   // Places that a person has recognised, of all photographs, in pixels of theirs.
   std::vector<ControlPoint> control_points;
+  // Whether photographs are compared in the planes of faces, and what they see alike ties them
+  // together.
+  bool use_ties = true;
+  // How often they are compared anew, through the cameras found so far.
+  int num_tie_rounds = 2;
   // How the accepted photographs are refined together; another function is another method.
   std::function<JointRefinement(const EdgeModel&,
                                 const std::vector<AlignedPhotograph>&,
                                 const std::vector<int>& lenses,
+                                const std::vector<TiePoint>& ties,
                                 const JointOptions&)>
       refine_together = RefineTogether;
 

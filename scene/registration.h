@@ -82,6 +82,14 @@ struct Registration {
   std::optional<double> robust_sigma_px;
   double score_nats = 0;              // above zero: better than chance
   std::optional<double> margin_nats;  // over the best rival; nothing if there is none
+  // What other photographs say of the camera: patches of faces sought in them, and found where the
+  // cameras expect them; nothing where the photograph was not refined together with others.
+  struct Ties {
+    int num_tried = 0;
+    int num_agreeing = 0;
+    double nats = 0;  // how much they speak for the camera
+  };
+  std::optional<Ties> ties;
   double moved_px = 0;  // mean displacement of the model's visible edges by the correction
   // What is left uncertain: one standard deviation of where the model's points are seen, the mean
   // over those in the frame, hidden ones included.

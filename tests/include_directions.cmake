@@ -23,7 +23,7 @@ set(rooms scene calibrate register invrender viewer report pipeline datasets-syn
 # The floors of a room, lowest first: a file includes its own floor and those before it; files that
 # stand in the room itself are above them all, but in scene, whose vocabulary all its formats speak.
 set(floors_scene . formats advice)
-set(floors_register camera edges search refine joint verdict)
+set(floors_register camera edges search refine ties joint verdict)
 set(floors_invrender inputs charts photos measure colour select compose plan tiles1988)
 
 # floor_of(OUT ROOM PATH): the number of a file's floor, from 0; -1 in a room without floors.

@@ -9,6 +9,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -23,6 +24,7 @@ std::vector<double*> BlocksOf(JointState& state, const ceres::Problem& problem) 
     if (problem.HasParameterBlock(edge.displacement.data())) add(edge.displacement);
   };
   for (MovingEdge& edge : state.edges) add_edge(edge);
+  for (MovingTie& tie : state.ties) add(tie.move);
   add_edge(state.ground);
   for (MovingPhotograph& moving : state.moving) add(moving.own);
   for (LensParameters& lens : state.lenses) add(lens);
@@ -56,6 +58,17 @@ Eigen::MatrixXd LeaveOutUpdates(const NormalEquations& equations,
   for (size_t i = 0; i < state.runs.size(); ++i) {
     rows_of_cluster[{state.runs[i].photograph, clusters[state.runs[i].edge]}].push_back(
         equations.RowsOfCosts().at(solved.edge_costs[i]));
+  }
+  // What a photograph has in common with others on one face errs together too: by what stands out
+  // from it, and by what the light does there.
+  const int num_clusters =
+      clusters.empty() ? 0 : *std::max_element(clusters.begin(), clusters.end()) + 1;
+  size_t tie_cost = 0;
+  for (const TiePoint& point : state.tie_points) {
+    for (const TieObservation& observation : point.observations) {
+      rows_of_cluster[{observation.photograph, num_clusters + point.face}].push_back(
+          equations.RowsOfCosts().at(solved.tie_costs[tie_cost++]));
+    }
   }
   std::vector<const std::vector<NormalEquations::Rows>*> left_out;
   for (const auto& [cluster, rows] : rows_of_cluster) left_out.push_back(&rows);

@@ -30,12 +30,20 @@ struct JointOptions {
   double least_own_offset_sigmas = 0.002 / 0.03;
   double most_own_offset_sigmas = 0.05 / 0.03;
   double least_shared_offset_sigmas = 0.01 / 0.03;
-  double most_shared_offset_sigmas = 0.05 / 0.03;
+  double most_shared_offset_sigmas = 1;
   // The part of a prior's variance that is the photograph's own; the rest is its lens', and the
   // same for all photographs of that lens. Slides have a scale and an aspect of their own.
   double own_k1_share = 0.001;
   double own_view_angle_share = 1;
   double own_aspect_share = 1;
+  // Tie points: what is left of one counts less and less beyond this many of its sigmas (Cauchy).
+  double tie_loss_sigmas = 1;
+  // How far they lie before or behind their faces: the scale of a distribution with long tails
+  // (Cauchy), and one sigma of a normal distribution that ends them. Next to nothing is assumed: a
+  // whole wall may be set back from the cornice that the model has, and a prior that pulls all its
+  // points to the face bends the cameras (docs/measurements/accuracy.md).
+  double relief_sigmas = 0.1;
+  double widest_relief_sigmas = 100;
   // How often candidates are chosen anew, and how far from an edge: it shrinks by this factor a
   // round, down to matching.final_range_px. A loose model (EdgeSample::looseness) widens both.
   int num_rounds = 6;

@@ -14,9 +14,10 @@ namespace groundglass {
 JointRefinement RefineTogether(const EdgeModel& edge_model,
                                const std::vector<AlignedPhotograph>& photographs,
                                const std::vector<int>& lenses,
+                               const std::vector<TiePoint>& ties,
                                const JointOptions& options) {
   if (photographs.empty()) return {};
-  JointState state(edge_model, photographs, lenses, options);
+  JointState state(edge_model, photographs, lenses, ties, options);
   SolvedTogether solved;
   for (int round = 0; round < options.num_rounds; ++round) {
     if (round + 1 == options.num_rounds) EstimateSharedOffset(options, state);

@@ -8,7 +8,9 @@
 #include "register/edges/residual_spread.h"
 #include "register/joint/joint_options.h"
 #include "register/search/score.h"
+#include "register/ties/tie_points.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,12 +21,14 @@ namespace groundglass {
 struct AlignedPhotograph {
   CameraPrior prior;
   std::vector<CandidateSample> found;  // sorted by edge
+  std::shared_ptr<const TiePicture> picture = {};
   CameraParameters whitened = CameraParameters::Zero();
   double noise_px = 1;  // spread of the matched residuals, within the bounds that are believed
   // For scoring the camera that comes out: where the samples are seen, and how much the best
   // solution elsewhere scores in all, and how far away it lies; no rival: nothing.
   std::vector<ScoreSample> score_samples = {};
   std::optional<double> rival_nats = {};
+  CameraParameters rival_whitened = CameraParameters::Zero();
   double rival_distance_px = 0;  // of the photograph itself
 };
 
@@ -54,10 +58,12 @@ struct JointRefinement {
 // Solves all photographs together: cameras with their priors, the lens that photographs share, and
 // where each model edge really is, so that a cornice that the model has a hand too low drags no
 // camera. Starts are the photographs' own solutions. lenses: for each photograph, the number of its
-// lens, from 0. Deterministic. Throws Error if the solver finds no solution.
+// lens, from 0. ties: what photographs see alike, by their numbers here; may be empty.
+// Deterministic. Throws Error if the solver finds no solution.
 JointRefinement RefineTogether(const EdgeModel& edge_model,
                                const std::vector<AlignedPhotograph>& photographs,
                                const std::vector<int>& lenses,
+                               const std::vector<TiePoint>& ties,
                                const JointOptions& options);
 
 }  // namespace groundglass

@@ -30,6 +30,11 @@ EdgeFrame FrameOfGround(const PolygonModel& model, const JointOptions& options) 
   return frame;
 }
 
+// Bytes that hold both arrays, whatever lies between them for alignment.
+size_t SizeOfMovers(size_t num_edges, size_t num_ties) {
+  return num_edges * sizeof(MovingEdge) + num_ties * sizeof(MovingTie) + 256;
+}
+
 // Each lens starts at the mean of what its photographs found by themselves.
 std::vector<LensParameters> StartLenses(const JointState& state) {
   int num_lenses = 0;
@@ -52,11 +57,19 @@ std::vector<LensParameters> StartLenses(const JointState& state) {
 JointState::JointState(const EdgeModel& edge_model_,
                        const std::vector<AlignedPhotograph>& photographs_,
                        const std::vector<int>& lens_of_photograph,
+                       const std::vector<TiePoint>& tie_points_,
                        const JointOptions& options)
     : edge_model(edge_model_),
       photographs(photographs_),
+      tie_points(tie_points_),
+      arena(SizeOfMovers(edge_model_.edges.size(), tie_points_.size())),
       own_bias(options.own),
-      edges(edge_model_.edges.size()) {
+      edges(edge_model_.edges.size(), &arena),
+      ties(&arena) {
+  ties.reserve(tie_points.size());
+  for (const TiePoint& point : tie_points) {
+    ties.push_back({FrameOfTiePoint(point, edge_model.sigma), Eigen::Vector3d::Zero()});
+  }
   ground.frame = FrameOfGround(edge_model.model, options);
   const LensParameters own_shares(
       options.own_view_angle_share, options.own_aspect_share, options.own_k1_share);

@@ -7,9 +7,11 @@
 #include "register/edges/edge_samples.h"
 #include "register/joint/joint_refinement.h"
 #include "register/joint/shared_edge_cost.h"
+#include "register/joint/tie_point_cost.h"
 
 #include <Eigen/Dense>
 
+#include <memory_resource>
 #include <vector>
 
 namespace groundglass {
@@ -19,6 +21,12 @@ struct MovingEdge {
   EdgeFrame frame;
   Eigen::Vector4d displacement = Eigen::Vector4d::Zero();  // in units of the frame's scale
   int num_photographs = 0;                                 // that matched it in the last round
+};
+
+// A tie point as the solve moves it.
+struct MovingTie {
+  TieFrame frame;
+  Eigen::Vector3d move = Eigen::Vector3d::Zero();  // in the frame's units
 };
 
 // A photograph as the solve moves it.
@@ -43,6 +51,7 @@ struct JointState {
   JointState(const EdgeModel& edge_model_,
              const std::vector<AlignedPhotograph>& photographs_,
              const std::vector<int>& lens_of_photograph,
+             const std::vector<TiePoint>& tie_points_,
              const JointOptions& options);
 
   // What moves an edge: its own displacement, or the ground's.
@@ -58,10 +67,15 @@ struct JointState {
 
   const EdgeModel& edge_model;
   const std::vector<AlignedPhotograph>& photographs;
+  const std::vector<TiePoint>& tie_points;
+  // Holds edges and ties one behind the other: Ceres orders what it eliminates by addresses, and
+  // the order, with it the rounding, is to be the same in every run.
+  std::pmr::monotonic_buffer_resource arena;
   EdgeBias own_bias;                     // of an edge in one photograph, its size as found so far
   std::vector<MovingPhotograph> moving;  // for each photograph
   std::vector<LensParameters> lenses;
-  std::vector<MovingEdge> edges;  // for each of EdgeModel::edges
+  std::pmr::vector<MovingEdge> edges;  // for each of EdgeModel::edges
+  std::pmr::vector<MovingTie> ties;    // for each of tie_points
   MovingEdge ground;
   std::vector<MatchedRun> runs;
 };

@@ -13,7 +13,7 @@ namespace groundglass {
 namespace {
 
 // One cost for each run of matched samples.
-SolvedTogether StartProblem(JointState& state) {
+SolvedTogether StartProblem(const JointOptions& options, JointState& state) {
   SolvedTogether solved;
   solved.problem = std::make_unique<ceres::Problem>();
   for (const MatchedRun& run : state.runs) {
@@ -25,6 +25,18 @@ SolvedTogether StartProblem(JointState& state) {
                                          moving.own.data(),
                                          state.lenses[moving.lens].data(),
                                          edge.displacement.data()));
+  }
+  for (size_t i = 0; i < state.ties.size(); ++i) {
+    for (const TieObservation& observation : state.tie_points[i].observations) {
+      MovingPhotograph& moving = state.moving[observation.photograph];
+      MovingTie& tie = state.ties[i];
+      solved.tie_costs.push_back(
+          solved.problem->AddResidualBlock(new TiePointCost(observation, moving.prior, tie.frame),
+                                           new ceres::CauchyLoss(options.tie_loss_sigmas),
+                                           moving.own.data(),
+                                           state.lenses[moving.lens].data(),
+                                           tie.move.data()));
+    }
   }
   return solved;
 }
@@ -52,6 +64,13 @@ std::shared_ptr<ceres::ParameterBlockOrdering> AddPriors(const JointOptions& opt
         block);
     ordering->AddElementToGroup(block, 0);
   }
+  for (MovingTie& tie : state.ties) {
+    problem.AddResidualBlock(
+        new ReliefPriorCost(options.widest_relief_sigmas), nullptr, tie.move.data());
+    problem.AddResidualBlock(
+        new ReliefPriorCost(1), new ceres::CauchyLoss(options.relief_sigmas), tie.move.data());
+    ordering->AddElementToGroup(tie.move.data(), 0);
+  }
   for (MovingPhotograph& moving : state.moving) {
     problem.AddResidualBlock(
         new StandardNormalCost<kNumCameraParameters>, nullptr, moving.own.data());
@@ -67,7 +86,7 @@ std::shared_ptr<ceres::ParameterBlockOrdering> AddPriors(const JointOptions& opt
 }  // namespace
 
 SolvedTogether SolveTogether(const JointOptions& options, JointState& state) {
-  SolvedTogether solved = StartProblem(state);
+  SolvedTogether solved = StartProblem(options, state);
   ceres::Solver::Options solver;
   solver.linear_solver_ordering = AddPriors(options, state, *solved.problem);
   solver.linear_solver_type = ceres::DENSE_SCHUR;

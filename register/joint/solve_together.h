@@ -15,6 +15,8 @@ namespace groundglass {
 struct SolvedTogether {
   std::unique_ptr<ceres::Problem> problem;
   std::vector<ceres::ResidualBlockId> edge_costs;  // one for each of JointState::runs
+  // One for each observation of each of JointState::tie_points, in order.
+  std::vector<ceres::ResidualBlockId> tie_costs;
 };
 
 // Moves cameras, lenses and edges, candidates held. Throws Error if the solver finds no solution.

@@ -57,6 +57,10 @@ void ApplyJudgement(const Judgement& judgement, Registration& registration) {
       registration.reasons.end(), judgement.reasons.begin(), judgement.reasons.end());
 }
 
+double LeastMargin(const AlignmentScore& score, const VerdictOptions& options) {
+  return std::max(options.min_margin_nats, options.min_margin_per_vote * score.votes);
+}
+
 Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options) {
   Judgement judgement;
   const AlignmentScore& score = evidence.score;
@@ -67,15 +71,15 @@ Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options) {
                score.nats),
         judgement);
   }
-  const double nats_per_vote = score.nats / std::max(1.0, score.votes);
+  // What stands against a camera of few edges, where other photographs do not confirm it.
+  const double nats_per_vote =
+      (score.nats + std::max(0.0, evidence.tie_nats)) / std::max(1.0, score.votes);
   if (score.nats > 0 && nats_per_vote < options.min_nats_per_vote) {
     Add(Verdict::kReview,
         Format("few of the model's edges are in the photograph (%.2f nats a vote)", nats_per_vote),
         judgement);
   }
-  const double min_margin_nats =
-      std::max(options.min_margin_nats, options.min_margin_per_vote * score.votes);
-  if (evidence.margin_nats && *evidence.margin_nats < min_margin_nats) {
+  if (evidence.margin_nats && *evidence.margin_nats < LeastMargin(score, options)) {
     Add(Verdict::kReview,
         Format("a rival %.1f px away fits almost as well (margin %.0f nats)",
                evidence.rival_distance_px,

@@ -54,7 +54,11 @@ struct Evidence {
   AlignmentScore score;
   std::optional<double> margin_nats;
   double rival_distance_px = 0;  // of the photograph
+  double tie_nats = 0;           // how much other photographs speak for it (TieSupport)
 };
+// How much better than its rival a camera must be, nats.
+double LeastMargin(const AlignmentScore& score, const VerdictOptions& options);
+
 // Goodness of fit: rejected where the edges fit no better than by chance, review where they fit
 // little, or elsewhere almost as well.
 Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options);

@@ -109,6 +109,11 @@ Json JsonFromRegistration(const Registration& registration) {
   json["robust_sigma_px"] = JsonFromOptional(registration.robust_sigma_px);
   json["score_nats"] = registration.score_nats;
   json["margin_nats"] = JsonFromOptional(registration.margin_nats);
+  if (registration.ties) {
+    json["ties"] = {{"tried", registration.ties->num_tried},
+                    {"agreeing", registration.ties->num_agreeing},
+                    {"nats", registration.ties->nats}};
+  }
   json["moved_px"] = registration.moved_px;
   json["vertex_sigma_px"] = registration.vertex_sigma_px;
   return json;
@@ -153,6 +158,11 @@ Registration RegistrationFromJson(const Json& json) {
   }
   registration.score_nats = json.at("score_nats").get<double>();
   registration.margin_nats = OptionalFromJson(json, "margin_nats");
+  if (const auto ties = json.find("ties"); ties != json.end()) {
+    registration.ties = {ties->at("tried").get<int>(),
+                         ties->at("agreeing").get<int>(),
+                         ties->at("nats").get<double>()};
+  }
   constexpr double kNoRivalOfVersion01 = 1e6;
   if (registration.margin_nats == kNoRivalOfVersion01) registration.margin_nats.reset();
   registration.moved_px = json.at("moved_px").get<double>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "register/refine_accepted.h"
+#include "register/refine_set.h"
 #include "register/register.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/osu_io.h"
@@ -137,7 +137,7 @@ void BM_RegisterPhotograph(benchmark::State& state) {
 BENCHMARK(BM_RegisterPhotograph)->Apply(AtAllWidths)->Arg(6000);
 
 // The dozen slides of the scene, at their own size, once each is aligned by itself.
-void BM_RefineAccepted(benchmark::State& state) {
+void BM_RefineSet(benchmark::State& state) {
   const Scene scene =
       ReadScene(std::filesystem::path(GROUNDGLASS_SOURCE_DIR) / "datasets-synthetic" / "brick");
   const EdgeModel edge_model(scene.model);
@@ -150,10 +150,10 @@ void BM_RefineAccepted(benchmark::State& state) {
   }
   for (auto _ : state) {
     std::vector<PhotographAlignment> together = aligned;
-    benchmark::DoNotOptimize(RefineAccepted(edge_model, {}, together));
+    benchmark::DoNotOptimize(RefineSet(edge_model, {}, together));
   }
 }
-BENCHMARK(BM_RefineAccepted)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+BENCHMARK(BM_RefineSet)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 }  // namespace
 }  // namespace groundglass

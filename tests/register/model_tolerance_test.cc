@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "register/refine_accepted.h"
+#include "register/refine_set.h"
 #include "register/register.h"
 #include "scene/model_sigma.h"
 #include "tests/register/house.h"
@@ -71,7 +71,7 @@ std::vector<PhotographAlignment> RegisterScaled(double scale,
     alignments.push_back(
         AlignPhotograph({"s" + std::to_string(i), Photographs()[i], {}, tag, {}}, edge_model, {}));
   }
-  RefineAccepted(edge_model, {}, alignments);
+  RefineSet(edge_model, {}, alignments);
   for (PhotographAlignment& alignment : alignments) FinishVerdict({}, alignment);
   return alignments;
 }

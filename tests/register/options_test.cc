@@ -86,6 +86,9 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfRefinement) {
                                 k1,
                                 view_angle,
                                 aspect,
+                                tie_loss,
+                                relief,
+                                widest_relief,
                                 rounds,
                                 range,
                                 spare,
@@ -106,6 +109,9 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfRefinement) {
       {"own_k1_share", [](auto& o) { o.own_k1_share = 0; }},
       {"own_view_angle_share", [](auto& o) { o.own_view_angle_share = 1.1; }},
       {"own_aspect_share", [](auto& o) { o.own_aspect_share = kNotANumber; }},
+      {"tie_loss_sigmas", [](auto& o) { o.tie_loss_sigmas = 0; }},
+      {"relief_sigmas", [](auto& o) { o.relief_sigmas = -1; }},
+      {"widest_relief_sigmas", [](auto& o) { o.widest_relief_sigmas = kInfinity; }},
       {"num_rounds", [](auto& o) { o.num_rounds = 0; }},
       {"start_range_px", [](auto& o) { o.start_range_px = 1; }},  // below the final range
       {"spare_range", [](auto& o) { o.spare_range = 0.5; }},
@@ -157,9 +163,48 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfThePrior) {
   });
 }
 
+TEST(RegistrationOptions, CheckNamesEachFieldOfTies) {
+  [[maybe_unused]] const auto& [correlation, lead, peak, sigma, correlated, floor] =
+      PatchMatchOptions();
+  ExpectCheckNamesEach<PatchMatchOptions>({
+      {"min_correlation", [](auto& o) { o.min_correlation = 1.1; }},
+      {"min_lead", [](auto& o) { o.min_lead = kNotANumber; }},
+      {"peak_texels", [](auto& o) { o.peak_texels = 0; }},
+      {"max_sigma_texels", [](auto& o) { o.max_sigma_texels = 0; }},
+      {"correlated_texels", [](auto& o) { o.correlated_texels = -1; }},
+      {"floor_texels", [](auto& o) { o.floor_texels = 0; }},
+  });
+  [[maybe_unused]] const auto& [columns, patch, search, share, angle, stars, levels, match] =
+      TieOptions();
+  ExpectCheckNamesEach<TieOptions>({
+      {"grid_columns", [](auto& o) { o.grid_columns = 0; }},
+      {"patch_texels", [](auto& o) { o.patch_texels = 7; }},
+      {"search_texels", [](auto& o) { o.search_texels = 0; }},
+      {"least_resolution_share", [](auto& o) { o.least_resolution_share = -1; }},
+      {"max_angle_deg", [](auto& o) { o.max_angle_deg = 90; }},
+      {"num_stars", [](auto& o) { o.num_stars = 0; }},
+      {"num_levels", [](auto& o) { o.num_levels = 0; }},
+      {"match.min_lead", [](auto& o) { o.match.min_lead = -1; }},
+  });
+  [[maybe_unused]] const auto& [nats, miss, loss, relief, matches, join_share, kept, most] =
+      TieSupportOptions();
+  ExpectCheckNamesEach<TieSupportOptions>({
+      {"match_nats", [](auto& o) { o.match_nats = 0; }},
+      {"miss_nats", [](auto& o) { o.miss_nats = -1; }},
+      {"loss_sigmas", [](auto& o) { o.loss_sigmas = 0; }},
+      {"relief_sigmas", [](auto& o) { o.relief_sigmas = 0; }},
+      {"least_matches_to_join", [](auto& o) { o.least_matches_to_join = 0; }},
+      {"least_share_to_join", [](auto& o) { o.least_share_to_join = 2; }},
+      {"least_share_kept", [](auto& o) { o.least_share_kept = 2; }},
+      {"most_matches", [](auto& o) { o.most_matches = 0; }},
+  });
+}
+
 TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
   [[maybe_unused]] const auto& [prior,
                                 solutions,
+                                ties,
+                                tie_support,
                                 joint,
                                 model_errors,
                                 verdict,
@@ -167,6 +212,8 @@ TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
                                 independent,
                                 width,
                                 points,
+                                use_ties,
+                                tie_rounds,
                                 together] = RegisterOptions();
   ExpectCheckNamesEach<RegisterOptions>({
       {"sigma-roll", [](auto& o) { o.prior.roll_deg = 0; }},
@@ -174,6 +221,9 @@ TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
       {"solutions.refine.matching.gate_deg",
        [](auto& o) { o.solutions.refine.matching.gate_deg = 0; }},
       {"solutions.score.noise_px", [](auto& o) { o.solutions.score.noise_px = 0; }},
+      {"ties.grid_columns", [](auto& o) { o.ties.grid_columns = 0; }},
+      {"tie_support.match_nats", [](auto& o) { o.tie_support.match_nats = 0; }},
+      {"num_tie_rounds", [](auto& o) { o.num_tie_rounds = 0; }},
       {"joint.own.edge_turn_sigmas", [](auto& o) { o.joint.own.edge_turn_sigmas = 0; }},
       {"model_errors.min_sigmas", [](auto& o) { o.model_errors.min_sigmas = -1; }},
       {"max_width_px", [](auto& o) { o.max_width_px = 63; }},

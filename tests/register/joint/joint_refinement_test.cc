@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "register/joint/joint_refinement.h"
 
-#include "register/refine_accepted.h"
+#include "register/refine_set.h"
 #include "tests/register/house.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +86,7 @@ TEST(RefineTogether, AnEdgeThatThePlanHasTooLowIsFoundAndDragsNoCamera) {
     ASSERT_EQ(alignment.registration.verdict, Verdict::kAccepted) << alignment.registration.name;
   }
   const double alone_px = MeanVertexErrorPx(built, alignments);
-  const std::vector<EdgeDisplacement> displacements = RefineAccepted(edge_model, {}, alignments);
+  const std::vector<EdgeDisplacement> displacements = RefineSet(edge_model, {}, alignments);
   EXPECT_LT(MeanVertexErrorPx(built, alignments), 0.8 * alone_px);
 
   int num_shed = 0;
@@ -130,7 +130,7 @@ TEST(RefineTogether, ALawnThatHidesTheFootOfAllWallsDragsNoCamera) {
   const PolygonModel model = MakeHouse();
   const EdgeModel edge_model(model);
   std::vector<PhotographAlignment> alignments = AlignAll(InALawn(model), edge_model);
-  const std::vector<EdgeDisplacement> displacements = RefineAccepted(edge_model, {}, alignments);
+  const std::vector<EdgeDisplacement> displacements = RefineSet(edge_model, {}, alignments);
   EXPECT_LT(MeanVertexErrorPx(model, alignments), 0.35);
   int num_ground = 0;
   for (const EdgeDisplacement& found : displacements) {
@@ -146,7 +146,7 @@ TEST(RefineTogether, WithAnExactModelCamerasStayAndTruthLiesInTheirEllipsoids) {
   const PolygonModel model = MakeHouse();
   const EdgeModel edge_model(model);
   std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
-  RefineAccepted(edge_model, {}, alignments);
+  RefineSet(edge_model, {}, alignments);
   EXPECT_LT(MeanVertexErrorPx(model, alignments), 0.35);
   for (size_t i = 0; i < alignments.size(); ++i) {
     const Registration& registration = alignments[i].registration;
@@ -162,7 +162,7 @@ TEST(RefineTogether, WithAnExactModelCamerasStayAndTruthLiesInTheirEllipsoids) {
 
 // Each photograph is scored again by the camera that is written, not by the one that it found
 // alone.
-TEST(RefineAccepted, TheScoreIsThatOfTheCameraThatIsWritten) {
+TEST(RefineSet, TheScoreIsThatOfTheCameraThatIsWritten) {
   const PolygonModel plan = MakeHouse();
   const PolygonModel built = WithAHigherShed(plan);
   const EdgeModel edge_model(plan);
@@ -171,7 +171,7 @@ TEST(RefineAccepted, TheScoreIsThatOfTheCameraThatIsWritten) {
   for (const PhotographAlignment& alignment : alignments) {
     alone.push_back(alignment.registration.score_nats);
   }
-  RefineAccepted(edge_model, {}, alignments);
+  RefineSet(edge_model, {}, alignments);
   for (size_t i = 0; i < alignments.size(); ++i) {
     const Registration& registration = alignments[i].registration;
     const EdgeEvidence evidence(
@@ -190,7 +190,7 @@ TEST(FindModelErrors, AnExactModelHasNone) {
   const PolygonModel model = MakeHouse();
   const EdgeModel edge_model(model);
   std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
-  const std::vector<EdgeDisplacement> displacements = RefineAccepted(edge_model, {}, alignments);
+  const std::vector<EdgeDisplacement> displacements = RefineSet(edge_model, {}, alignments);
   EXPECT_FALSE(displacements.empty());
   EXPECT_TRUE(FindModelErrors(edge_model, displacements, {}).empty());
 }
@@ -205,7 +205,7 @@ TEST(RefineTogether, PhotographsOfOneLensEndWithOneK1) {
         spread_alone,
         std::abs(alignment.registration.corrected.k1 - alignments[0].registration.corrected.k1));
   }
-  RefineAccepted(edge_model, {}, alignments);
+  RefineSet(edge_model, {}, alignments);
   double spread = 0;
   for (const PhotographAlignment& alignment : alignments) {
     spread = std::max(
@@ -216,14 +216,14 @@ TEST(RefineTogether, PhotographsOfOneLensEndWithOneK1) {
   EXPECT_GT(spread_alone, 3 * spread);
 }
 
-TEST(RefineAccepted, DigitalPhotographsOfOneLensEndWithOneViewAngleAndAspect) {
+TEST(RefineSet, DigitalPhotographsOfOneLensEndWithOneViewAngleAndAspect) {
   const PolygonModel model = MakeHouse();
   const EdgeModel edge_model(model);
   for (const bool digital : {false, true}) {
     RegisterOptions options;
     options.prior.digital = digital;
     std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
-    RefineAccepted(edge_model, options, alignments);
+    RefineSet(edge_model, options, alignments);
     double view_angle_spread_deg = 0;
     double aspect_spread = 0;
     const ViewTag& first = alignments[0].registration.corrected;
@@ -250,7 +250,7 @@ TEST(RefineTogether, LockedParametersStayLocked) {
     alignments.push_back(AlignPhotograph(
         {"s" + std::to_string(i), photograph, {}, MeasuredTags()[i], {}}, edge_model, options));
   }
-  RefineAccepted(edge_model, options, alignments);
+  RefineSet(edge_model, options, alignments);
   for (const PhotographAlignment& alignment : alignments) {
     EXPECT_DOUBLE_EQ(alignment.registration.corrected.view_angle_deg, 54);
     EXPECT_DOUBLE_EQ(alignment.registration.corrected.aspect, 1.5);
@@ -259,7 +259,7 @@ TEST(RefineTogether, LockedParametersStayLocked) {
   }
 }
 
-TEST(RefineAccepted, OnePhotographStaysAsItIs) {
+TEST(RefineSet, OnePhotographStaysAsItIs) {
   const PolygonModel model = MakeHouse();
   const EdgeModel edge_model(model);
   std::vector<PhotographAlignment> alignments = AlignAll(model, edge_model);
@@ -267,7 +267,7 @@ TEST(RefineAccepted, OnePhotographStaysAsItIs) {
     alignments[i].registration.verdict = Verdict::kReview;
   }
   const ViewTag before = alignments[0].registration.corrected;
-  EXPECT_TRUE(RefineAccepted(edge_model, {}, alignments).empty());
+  EXPECT_TRUE(RefineSet(edge_model, {}, alignments).empty());
   EXPECT_EQ(alignments[0].registration.corrected, before);
 }
 

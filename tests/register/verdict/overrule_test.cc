@@ -95,7 +95,7 @@ TEST(SelectPhotographs, UnknownNamesAreAnErrorThatListsTheNames) {
   EXPECT_EQ(ThrownMessage([] {
               RequirePhotographs(SceneOf({"s1", "s2", "s10"}), {"s2", "s7"}, "option --accept");
             }),
-            "option --accept: no photograph is called 's7'; there are s1 s2 s10");
+            "option --accept: no photograph is called 's7'; there are s1, s2, s10");
 }
 
 TEST(SelectPhotographs, KeepsTheScenesOrder) {

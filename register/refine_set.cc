@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/refine_set.h"
+
+#include "register/fill_registration.h"
+#include "scene/error.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace groundglass {
+namespace {
+
+// What photographs of the same lens have in common.
+using LensKey = std::tuple<std::string, int, int, double, double>;
+
+LensKey LensKeyOf(const Registration& registration) {
+  const ViewTag& tag = registration.measured;
+  if (!tag.camera.empty()) return {tag.camera, 0, 0, 0, 0};
+  return {"", registration.width_px, registration.height_px, tag.view_angle_deg, tag.aspect};
+}
+
+// The photographs that are refined together.
+struct PhotographSet {
+  std::vector<PhotographAlignment*> alignments;
+  std::vector<AlignedPhotograph> photographs;
+  std::vector<double> alone_nats;  // that spoke for the camera that each started with
+
+  bool Holds(const PhotographAlignment& alignment) const {
+    return std::find(alignments.begin(), alignments.end(), &alignment) != alignments.end();
+  }
+  void Add(PhotographAlignment& alignment, const AlignedPhotograph& photograph, double nats) {
+    alignments.push_back(&alignment);
+    photographs.push_back(photograph);
+    alone_nats.push_back(nats);
+  }
+};
+
+TieView ViewOf(const AlignedPhotograph& photograph) {
+  return {photograph.picture.get(), photograph.prior.CameraAt(photograph.whitened)};
+}
+
+std::vector<TieView> ViewsOf(const std::vector<AlignedPhotograph>& photographs) {
+  std::vector<TieView> views;
+  for (const AlignedPhotograph& photograph : photographs) views.push_back(ViewOf(photograph));
+  return views;
+}
+
+// The common solution of a set; its photographs' cameras are those found, afterwards.
+JointRefinement Refine(const EdgeModel& edge_model,
+                       const RegisterOptions& options,
+                       PhotographSet& set) {
+  std::vector<int> lenses;
+  std::map<LensKey, int> lens_of_key;
+  for (const PhotographAlignment* alignment : set.alignments) {
+    const int next = static_cast<int>(lens_of_key.size());
+    lenses.push_back(lens_of_key.emplace(LensKeyOf(alignment->registration), next).first->second);
+  }
+  JointOptions joint_options = options.joint;
+  if (options.prior.digital) {
+    // No mount and no scan gives a photograph a scale of its own.
+    joint_options.own_view_angle_share = joint_options.own_k1_share;
+    joint_options.own_aspect_share = joint_options.own_k1_share;
+  }
+  TiePoints ties;
+  if (options.use_ties) {
+    ties = FindTiePoints(
+        edge_model.model, edge_model.visibility, ViewsOf(set.photographs), options.ties);
+  }
+  JointRefinement joint =
+      options.refine_together(edge_model, set.photographs, lenses, ties.points, joint_options);
+  for (const JointSolution& solution : joint.photographs) {
+    if (!solution.whitened.allFinite() || !solution.covariance.allFinite()) {
+      throw Error("register: the photographs' common solution has no covariance");
+    }
+  }
+  for (size_t i = 0; i < set.photographs.size(); ++i) {
+    set.photographs[i].whitened = joint.photographs[i].whitened;
+  }
+  return joint;
+}
+
+// How much other photographs speak for a camera; `skip`: the photograph's own place among them.
+TieSupport SupportFor(const AlignedPhotograph& photograph,
+                      const std::vector<TieView>& others,
+                      std::optional<size_t> skip,
+                      const EdgeModel& edge_model,
+                      const RegisterOptions& options) {
+  std::vector<TieView> views = {ViewOf(photograph)};
+  for (size_t i = 0; i < others.size(); ++i) {
+    if (i != skip) views.push_back(others[i]);
+  }
+  const TiePoints ties =
+      FindTiePointsOf(0, edge_model.model, edge_model.visibility, views, options.ties);
+  return MeasureTieSupport(0, ties, views, edge_model.sigma, options.tie_support);
+}
+
+// What edges and ties say for a camera, as far as they can be compared with its rival's.
+double NatsFor(const AlignedPhotograph& photograph, const ScoreOptions& options) {
+  return ScoreFromSamples(
+             photograph.score_samples, photograph.prior.ProjectionAt(photograph.whitened), options)
+             .nats -
+         0.5 * photograph.whitened.squaredNorm();
+}
+
+// Photographs that are not accepted by themselves join those that are where others show the same,
+// each with the camera, its own or its rival's, that edges and ties together speak for.
+void JoinByTies(const EdgeModel& edge_model,
+                const RegisterOptions& options,
+                const std::vector<const PhotographAlignment*>& barred,
+                std::vector<PhotographAlignment>& alignments,
+                PhotographSet& set) {
+  struct Candidate {
+    PhotographAlignment* alignment = nullptr;
+    AlignedPhotograph photograph;
+    bool joins = false;
+  };
+  std::vector<Candidate> candidates;
+  std::vector<TieView> views = ViewsOf(set.photographs);
+  const size_t num_members = views.size();
+  for (PhotographAlignment& alignment : alignments) {
+    if (alignment.registration.verdict != Verdict::kReview) continue;
+    if (alignment.aligned.found.empty() || set.Holds(alignment)) continue;
+    if (std::find(barred.begin(), barred.end(), &alignment) != barred.end()) continue;
+    candidates.push_back({&alignment, alignment.aligned, false});
+    views.push_back(ViewOf(alignment.aligned));
+  }
+  tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
+    Candidate& candidate = candidates[i];
+    const std::optional<AlignedPhotograph>& rival = candidate.alignment->rival;
+    TieSupport support =
+        SupportFor(candidate.photograph, views, num_members + i, edge_model, options);
+    if (rival && !rival->found.empty()) {
+      const TieSupport rivals = SupportFor(*rival, views, num_members + i, edge_model, options);
+      const ScoreOptions& score = options.solutions.score;
+      if (CountedLead(rivals, support, options.tie_support) >
+          NatsFor(candidate.photograph, score) - NatsFor(*rival, score)) {
+        candidate.photograph = *rival;
+        support = rivals;
+      }
+    }
+    candidate.joins = MayJoin(support, options.tie_support);
+  });
+  for (const Candidate& candidate : candidates) {
+    if (!candidate.joins) continue;
+    set.Add(*candidate.alignment,
+            candidate.photograph,
+            NatsFor(candidate.photograph, options.solutions.score));
+  }
+}
+
+// Takes out the photographs of whose own edges the common solution explains much less than they do
+// by themselves: others have pulled them away. They do not come back. Returns whether there are
+// any.
+bool TakeOutWorsened(const RegisterOptions& options,
+                     PhotographSet& set,
+                     std::vector<const PhotographAlignment*>& barred) {
+  const ScoreOptions& score = options.solutions.score;
+  PhotographSet kept;
+  for (size_t i = 0; i < set.photographs.size(); ++i) {
+    PhotographAlignment& alignment = *set.alignments[i];
+    const double kept_nats = NatsFor(set.photographs[i], score);
+    if (kept_nats < options.tie_support.least_share_kept * set.alone_nats[i]) {
+      barred.push_back(&alignment);
+    } else {
+      kept.Add(alignment, set.photographs[i], set.alone_nats[i]);
+    }
+  }
+  const bool any_worsened = kept.photographs.size() < set.photographs.size();
+  set = std::move(kept);
+  return any_worsened;
+}
+
+// What edges and other photographs say for the camera that the set has found. It is scored as the
+// photograph's own solution was, by what that one saw; the rival's score stays, its own best.
+Evidence EvidenceFor(const AlignedPhotograph& photograph,
+                     const TieSupport& support,
+                     const std::function<TieSupport()>& rivals_support,
+                     const RegisterOptions& options) {
+  Evidence evidence;
+  evidence.score = ScoreFromSamples(photograph.score_samples,
+                                    photograph.prior.ProjectionAt(photograph.whitened),
+                                    options.solutions.score);
+  evidence.rival_distance_px = photograph.rival_distance_px;
+  if (photograph.rival_nats) {
+    evidence.margin_nats =
+        evidence.score.nats - 0.5 * photograph.whitened.squaredNorm() - *photograph.rival_nats;
+    // Patches are compared through the rival's camera as well only where edges do not decide.
+    if (options.use_ties && *evidence.margin_nats < LeastMargin(evidence.score, options.verdict)) {
+      *evidence.margin_nats += CountedLead(support, rivals_support(), options.tie_support);
+    }
+  }
+  evidence.tie_nats = CountedNats(support, options.tie_support);
+  return evidence;
+}
+
+void JudgeMember(size_t i,
+                 const JointSolution& solution,
+                 const PhotographSet& set,
+                 const std::vector<TieView>& views,
+                 const EdgeModel& edge_model,
+                 const RegisterOptions& options) {
+  const AlignedPhotograph& photograph = set.photographs[i];
+  Registration& registration = set.alignments[i]->registration;
+  TieSupport support;
+  if (options.use_ties) {
+    support = SupportFor(photograph, views, i, edge_model, options);
+    registration.ties = {support.num_tried, support.num_agreeing, support.nats};
+  }
+  const auto rivals_support = [&] {
+    AlignedPhotograph rival = photograph;
+    rival.whitened = photograph.rival_whitened;
+    return SupportFor(rival, views, i, edge_model, options);
+  };
+  std::vector<Eigen::Vector3d> points_in_world;
+  for (const CandidateSample& found : photograph.found) {
+    points_in_world.push_back(found.sample.point_in_world);
+  }
+  FillRegistration(solution, photograph.prior, edge_model.model, points_in_world, registration);
+  const Evidence evidence = EvidenceFor(photograph, support, rivals_support, options);
+  RecordEvidence(evidence, registration);
+  registration.verdict = Verdict::kAccepted;
+  registration.reasons.clear();
+  ApplyJudgement(JudgeFit(evidence, options.verdict), registration);
+  ApplyJudgement(JudgeInnovation(solution.whitened, photograph.prior, options.verdict),
+                 registration);
+  registration.undetermined =
+      FindUndetermined(registration.sigmas, photograph.prior, options.verdict);
+}
+
+}  // namespace
+
+std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
+                                        const RegisterOptions& options,
+                                        std::vector<PhotographAlignment>& alignments) {
+  PhotographSet set;
+  for (PhotographAlignment& alignment : alignments) {
+    if (alignment.registration.verdict != Verdict::kAccepted) continue;
+    if (alignment.aligned.found.empty()) continue;
+    set.Add(alignment, alignment.aligned, NatsFor(alignment.aligned, options.solutions.score));
+  }
+  JointRefinement joint;
+  std::vector<const PhotographAlignment*> barred;
+  // Cameras that know of one another show more alike, and more of what they show agrees.
+  const int num_rounds = options.use_ties ? options.num_tie_rounds : 1;
+  for (int round = 0; round < num_rounds; ++round) {
+    if (options.use_ties) JoinByTies(edge_model, options, barred, alignments, set);
+    if (set.photographs.size() < 2) return {};
+    joint = Refine(edge_model, options, set);
+    if (!TakeOutWorsened(options, set, barred)) continue;
+    if (set.photographs.size() < 2) return {};
+    joint = Refine(edge_model, options, set);
+  }
+  const std::vector<TieView> views = ViewsOf(set.photographs);
+  tbb::parallel_for(size_t{0}, set.photographs.size(), [&](size_t i) {
+    JudgeMember(i, joint.photographs[i], set, views, edge_model, options);
+  });
+  return joint.displacements;
+}
+
+}  // namespace groundglass
