@@ -215,11 +215,11 @@ class Bake {
   bool IsLimited() const { return options_.max_memory_mb > 0; }
 
   std::vector<PreparedPhoto> Prepare(const MaskDetail& detail, Steps* steps) {
-    const PhotoSurroundings surroundings = {
+    const PhotoContext context = {
         model_, visibility_, earlier_ ? &*earlier_ : nullptr, chart_of_face_, options_, cache_};
     std::vector<std::optional<PreparedPhoto>> prepared(photographs_.size());
     ForEach(static_cast<int>(photographs_.size()), plan_.num_at_once, [&](int i) {
-      prepared[i].emplace(PreparePhoto(photographs_[i], i, surroundings, detail));
+      prepared[i].emplace(PreparePhoto(photographs_[i], i, context, detail));
       if (steps) steps->Tell("read " + photographs_[i].name);
     });
     std::vector<PreparedPhoto> photos;

@@ -38,7 +38,7 @@ float Median(std::vector<float>& values) {
 
 // Every how manieth block to look at, so that about `enough` are, and not always the same columns.
 int StepThrough(const ChartBlocks& blocks, int enough) {
-  const int step = std::max(1, blocks.NumCells() / enough);
+  const int step = std::max(1, blocks.NumBlocks() / enough);
   return step > 1 && blocks.width % step == 0 ? step + 1 : step;
 }
 
@@ -53,8 +53,8 @@ struct Pair {
   Eigen::Array3f difference = Eigen::Array3f::Zero();  // median of log radiance, first - second
 
   // The two views of one of the blocks.
-  std::pair<const CellView*, const CellView*> Views(size_t i) const {
-    const CellView* views = chart->ViewsOf(static_cast<int>(blocks[i]));
+  std::pair<const BlockView*, const BlockView*> Views(size_t i) const {
+    const BlockView* views = chart->ViewsOf(static_cast<int>(blocks[i]));
     return {views + first_k, views + second_k};
   }
 };
@@ -63,11 +63,11 @@ struct Pair {
 // are sought in.
 template <typename Work>
 void ForEachUsable(const ChartBlocks& chart, const ColourOptions& options, const Work& work) {
-  if (chart.NumCells() < options.fewest_shared) return;
+  if (chart.NumBlocks() < options.fewest_shared) return;
   std::vector<size_t> usable;
-  for (int block = 0; block < chart.NumCells();
+  for (int block = 0; block < chart.NumBlocks();
        block += StepThrough(chart, options.enough_for_pairs)) {
-    const CellView* views = chart.ViewsOf(block);
+    const BlockView* views = chart.ViewsOf(block);
     usable.clear();
     for (size_t k = 0; k < chart.photos.size(); ++k) {
       if (views[k].is_usable) usable.push_back(k);
@@ -87,7 +87,7 @@ std::vector<Pair> FindPairs(const std::vector<ChartBlocks>& blocks, const Colour
   const size_t stride = 1 + num_shared / static_cast<size_t>(options.most_shared);
   std::vector<Pair> pairs;
   for (const ChartBlocks& chart : blocks) {
-    if (chart.NumCells() < options.fewest_shared) continue;
+    if (chart.NumBlocks() < options.fewest_shared) continue;
     const size_t num_photos = chart.photos.size();
     const auto is_wanted = [&](size_t a, size_t b) {
       return b == a + 1 || (a * 7919 + b * 104729) % stride == 0;
@@ -238,8 +238,8 @@ void SolveFaceGains(const std::vector<ChartBlocks>& blocks,
     const int step = StepThrough(grid, options.enough_for_light);
     for (int channel = 0; channel < 3; ++channel) {
       std::vector<std::vector<float>> residuals(grid.photos.size());
-      for (int block = 0; block < grid.NumCells(); block += step) {
-        const CellView* views = grid.ViewsOf(block);
+      for (int block = 0; block < grid.NumBlocks(); block += step) {
+        const BlockView* views = grid.ViewsOf(block);
         sorted.clear();
         for (size_t k = 0; k < grid.photos.size(); ++k) {
           if (!views[k].is_usable) continue;
@@ -279,7 +279,7 @@ void JudgeUnevenness(const std::vector<ChartBlocks>& blocks,
   std::vector<double> squares(colour.photos.size(), 0);
   std::vector<double> weights(colour.photos.size(), 1e-9);
   for (size_t chart = 0; chart < blocks.size(); ++chart) {
-    const double weight = std::sqrt(static_cast<double>(blocks[chart].NumCells()));
+    const double weight = std::sqrt(static_cast<double>(blocks[chart].NumBlocks()));
     for (size_t k = 0; k < blocks[chart].photos.size(); ++k) {
       const double gain =
           std::min(options.most_uneven, std::abs<double>(colour.face_gains[chart][k].mean()));

@@ -101,7 +101,7 @@ class ChartComposer {
  private:
   // The look-ups of a row's texels; their states, provenance and reach.
   void FindRow(int y, std::vector<Lookup>& lookups) {
-    std::vector<Contribution> ingredients;
+    std::vector<Contribution> contributions;
     std::array<SurfaceObservation, Blender::kRunTexels> run;
     std::vector<int> chosen;
     blender_.ChooseRow(y, chosen);
@@ -111,19 +111,19 @@ class ChartComposer {
         continue;
       }
       const int num_in_run = blender_.GatherRun(x, y, chosen, run);
-      ingredients.resize(1);
-      ingredients[0] = {chosen[x], 1, true, {}};
+      contributions.resize(1);
+      contributions[0] = {chosen[x], 1, true, {}};
       for (int i = 0; i < num_in_run; ++i, ++x) {
-        ingredients[0].sighting = run[i];
-        AddTexel(x, y, ingredients, lookups);
+        contributions[0].observation = run[i];
+        AddTexel(x, y, contributions, lookups);
       }
       if (num_in_run > 0) continue;
-      if (ingredients[0].k < 0 ||
-          !blender_.SeesClear(ingredients[0].k, x, y, ingredients[0].sighting)) {
-        blender_.Gather(x, y, ingredients);
+      if (contributions[0].k < 0 ||
+          !blender_.SeesClear(contributions[0].k, x, y, contributions[0].observation)) {
+        blender_.Gather(x, y, contributions);
       }
       *pixels_.states.At(x, y) = static_cast<uint8_t>(TexelState::kOpen);
-      if (!ingredients.empty()) AddTexel(x, y, ingredients, lookups);
+      if (!contributions.empty()) AddTexel(x, y, contributions, lookups);
       ++x;
     }
     SortByPhoto(inputs_.blocks.photos.size(), lookups);
@@ -131,27 +131,29 @@ class ChartComposer {
 
   void AddTexel(int x,
                 int y,
-                const std::vector<Contribution>& ingredients,
+                const std::vector<Contribution>& contributions,
                 std::vector<Lookup>& lookups) {
-    const Contribution& main = *std::max_element(
-        ingredients.begin(), ingredients.end(), [](const Contribution& a, const Contribution& b) {
-          return a.weight < b.weight || (a.weight == b.weight && a.k > b.k);
-        });
-    for (const Contribution& i : ingredients) {
+    const Contribution& main =
+        *std::max_element(contributions.begin(),
+                          contributions.end(),
+                          [](const Contribution& a, const Contribution& b) {
+                            return a.weight < b.weight || (a.weight == b.weight && a.k > b.k);
+                          });
+    for (const Contribution& i : contributions) {
       lookups.push_back({i.k,
                          x,
                          static_cast<float>(i.weight),
-                         i.sighting.image_px.cast<float>(),
-                         i.sighting.px_from_unit.cast<float>()});
+                         i.observation.image_px.cast<float>(),
+                         i.observation.px_from_unit.cast<float>()});
     }
-    const bool is_good = blender_.IsGood(ingredients);
+    const bool is_good = blender_.IsGood(contributions);
     *pixels_.states.At(x, y) =
         static_cast<uint8_t>(is_good ? TexelState::kGood : TexelState::kWeak);
-    if (!is_good) *pixels_.reach.At(x, y) = blender_.ReachFromBorder(main.sighting);
+    if (!is_good) *pixels_.reach.At(x, y) = blender_.ReachFromBorder(main.observation);
     *pixels_.provenance.At(x, y) = static_cast<uint16_t>(inputs_.blocks.photos[main.k] + 1);
     if (x % kFootprintStep == 0 && y % kFootprintStep == 0) {
       *footprints_.At(x / kFootprintStep, y / kFootprintStep) =
-          static_cast<float>(1 / std::sqrt(std::abs(main.sighting.px_from_unit.determinant())));
+          static_cast<float>(1 / std::sqrt(std::abs(main.observation.px_from_unit.determinant())));
     }
   }
 

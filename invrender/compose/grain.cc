@@ -44,22 +44,22 @@ Bands SplitBands(const Plane& in) {
 
 // What the filters' reach leaves of a patch.
 constexpr int kReach = 6;
-constexpr int kInner = kSpotSide - 2 * kReach;
+constexpr int kInner = kPatchSide - 2 * kReach;
 using BandPatch = Eigen::Array<float, kInner, kInner>;
 
-struct SpotBands {
+struct PatchBands {
   int photo = -1;
   float mean = 0;  // encoded, 1 is white
   std::array<BandPatch, kGrainBands> bands;
   BandPatch Both() const { return bands[0] + bands[1]; }
 };
 
-SpotBands SplitSpot(const SpotView& view) {
-  Plane luma(kSpotSide, kSpotSide);
-  SpotBands patch;
+PatchBands SplitPatch(const PatchView& view) {
+  Plane luma(kPatchSide, kPatchSide);
+  PatchBands patch;
   patch.photo = view.photo;
-  for (int y = 0; y < kSpotSide; ++y) {
-    for (int x = 0; x < kSpotSide; ++x) luma(y, x) = view.luma(y, x) / 65535.0f;
+  for (int y = 0; y < kPatchSide; ++y) {
+    for (int x = 0; x < kPatchSide; ++x) luma(y, x) = view.luma(y, x) / 65535.0f;
   }
   patch.mean = view.luma.cast<float>().mean() / 65535.0f;
   const Bands split = SplitBands(luma);
@@ -77,11 +77,11 @@ using PhotoPair = std::pair<int, int>;  // ascending
 
 // Two photographs' views of one patch.
 struct PatchPair {
-  const SpotBands* first = nullptr;
-  const SpotBands* second = nullptr;
+  const PatchBands* first = nullptr;
+  const PatchBands* second = nullptr;
   float energy = 0;
 
-  PatchPair(const SpotBands& a, const SpotBands& b)
+  PatchPair(const PatchBands& a, const PatchBands& b)
       : first(a.photo < b.photo ? &a : &b),
         second(a.photo < b.photo ? &b : &a),
         energy(std::sqrt(a.Both().square().mean() * b.Both().square().mean())) {}
@@ -239,9 +239,9 @@ Grain MeasureGrain(const std::vector<Patch>& patches,
                    size_t num_charts,
                    size_t num_photos,
                    const GrainOptions& options) {
-  std::vector<std::vector<SpotBands>> views(patches.size());
+  std::vector<std::vector<PatchBands>> views(patches.size());
   tbb::parallel_for(size_t{0}, patches.size(), [&](size_t i) {
-    for (const SpotView& view : patches[i].views) views[i].push_back(SplitSpot(view));
+    for (const PatchView& view : patches[i].views) views[i].push_back(SplitPatch(view));
   });
   std::vector<std::vector<PatchPair>> pairs(num_charts);
   std::array<std::map<PhotoPair, std::vector<float>>, kGrainBands> differences;

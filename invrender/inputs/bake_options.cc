@@ -53,36 +53,36 @@ void ColourOptions::Check(const std::string& path) const {
   CheckAbove(most_uneven, 0, path + "most_uneven");
 }
 
-void PaletteOptions::Check(const std::string& path) const {
+void HistogramOptions::Check(const std::string& path) const {
   CheckFromTo(bins_per_unit, 0.5, 64, path + "bins_per_unit");
   CheckAbove(fewest_counts, 0, path + "fewest_counts");
   CheckFromTo(ordinary_share, 1e-6, 1, path + "ordinary_share");
   CheckFromTo(unseen_share, 1e-12, 1, path + "unseen_share");
-  CheckAtLeast(most_surprise, 0, path + "most_surprise");
+  CheckAtLeast(max_negative_log_likelihood, 0, path + "max_negative_log_likelihood");
 }
 
 void ConsistencyOptions::Check(const std::string& path) const {
   CheckAbove(ordinary_difference, 0, path + "ordinary_difference");
-  CheckAbove(largest_dissent, 0, path + "largest_dissent");
+  CheckAbove(max_inconsistency, 0, path + "max_inconsistency");
   CheckAbove(agreeing, 0, path + "agreeing");
-  CheckAtLeast(palette_weight, 0, path + "palette_weight");
+  CheckAtLeast(histogram_weight, 0, path + "histogram_weight");
   CheckAtLeast(blur_weight, 0, path + "blur_weight");
   CheckAbove(vote_unevenness, 0, path + "vote_unevenness");
   CheckAtLeast(even_light_preference, 0, path + "even_light_preference");
-  CheckFromTo(cost_reach, 0, 100, path + "cost_reach");
-  CheckFromTo(dissent_reach, 0, 100, path + "dissent_reach");
-  CheckFromTo(consensus_reach, 0, 100, path + "consensus_reach");
+  CheckFromTo(cost_radius, 0, 100, path + "cost_radius");
+  CheckFromTo(inconsistency_radius, 0, 100, path + "inconsistency_radius");
+  CheckFromTo(consensus_radius, 0, 100, path + "consensus_radius");
   CheckFromTo(majority, 0, 1, path + "majority");
   CheckFromTo(fewest_to_compare, 2, 1000, path + "fewest_to_compare");
   CheckFromTo(disputed_weight, 0, 1, path + "disputed_weight");
-  palette.Check(path + "palette.");
+  histogram.Check(path + "histogram.");
 }
 
 void SeamOptions::Check(const std::string& path) const {
-  CheckAbove(worst, 0, path + "worst");
-  CheckAtLeast(side, 0, path + "side");
-  CheckAtLeast(per_difference, 0, path + "per_difference");
-  CheckAbove(most_different, 0, path + "most_different");
+  CheckAbove(max_data_cost, 0, path + "max_data_cost");
+  CheckAtLeast(seam_cost, 0, path + "seam_cost");
+  CheckAtLeast(difference_cost, 0, path + "difference_cost");
+  CheckAbove(max_difference, 0, path + "max_difference");
 }
 
 void BlendOptions::Check(const std::string& path) const {

@@ -13,15 +13,15 @@
 namespace groundglass {
 
 // Samples along a side of a patch.
-constexpr int kSpotSide = 30;
-using SpotSamples = Eigen::Array<uint16_t, kSpotSide, kSpotSide>;
+constexpr int kPatchSide = 30;
+using PatchSamples = Eigen::Array<uint16_t, kPatchSide, kPatchSide>;
 
 // How one photograph shows a patch.
-struct SpotView {
+struct PatchView {
   int photo = -1;
   double px_per_unit = 0;        // at the patch's middle
   Eigen::Matrix2d step_from_px;  // patch's steps for one pixel along the photograph's x and y
-  SpotSamples luma;              // (row, column): encoded as sRGB, 65535 is white
+  PatchSamples luma;             // (row, column): encoded as sRGB, 65535 is white
 };
 
 // A small square of the model's surface, sampled at steps of a pixel of the photograph that shows
@@ -31,11 +31,11 @@ struct Patch {
   int face = -1;
   Eigen::Vector2d corner_in_plane = Eigen::Vector2d::Zero();  // of the first sample
   double step = 0;                                            // model's unit
-  std::vector<SpotView> views;                                // two or more, the best first
+  std::vector<PatchView> views;                               // two or more, the best first
 };
 
-// Spots spread over all faces, where two photographs or more show them whole and clear of borders.
-// Goes photograph by photograph, so that each is decoded once.
+// Patches spread over all faces, where two photographs or more show them whole and clear of
+// borders. Goes photograph by photograph, so that each is decoded once.
 std::vector<Patch> SamplePatches(const PolygonModel& model,
                                  const std::vector<Chart>& charts,
                                  const std::vector<PreparedPhoto>& photos);

@@ -12,7 +12,7 @@ namespace groundglass {
 namespace {
 
 // What is left of a patch when it is smoothed, and when it is differentiated.
-constexpr int kSmoothSide = kSpotSide - 8;
+constexpr int kSmoothSide = kPatchSide - 8;
 constexpr int kInnerSide = kSmoothSide - 2;
 constexpr int kNumInner = kInnerSide * kInnerSide;
 
@@ -20,9 +20,9 @@ using SmoothPatch = Eigen::Array<double, kSmoothSide, kSmoothSide>;
 using InnerPatch = Eigen::Array<double, kInnerSide, kInnerSide>;
 
 // Smoothed by a binomial of variance 2, so that grain hardly counts; mean 1.
-SmoothPatch Smooth(const SpotSamples& luma) {
+SmoothPatch Smooth(const PatchSamples& luma) {
   constexpr std::array<double, 9> kBinomial = {1, 8, 28, 56, 70, 56, 28, 8, 1};
-  Eigen::Array<double, kSpotSide, kSmoothSide> rows;
+  Eigen::Array<double, kPatchSide, kSmoothSide> rows;
   SmoothPatch smooth = SmoothPatch::Zero();
   rows.setZero();
   for (int i = 0; i < 9; ++i) rows += kBinomial[i] * luma.middleCols<kSmoothSide>(i).cast<double>();
@@ -37,9 +37,9 @@ struct PairEvidence {
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
 };
 
-PairEvidence ComparePair(const SpotView& first,
+PairEvidence ComparePair(const PatchView& first,
                          const SmoothPatch& first_smooth,
-                         const SpotView& second,
+                         const PatchView& second,
                          const SmoothPatch& second_smooth,
                          const SharpnessOptions& options) {
   PairEvidence evidence;
@@ -60,7 +60,7 @@ PairEvidence ComparePair(const SpotView& first,
   const InnerPatch dxy =
       (inner(mean, 1, 1) + inner(mean, -1, -1) - inner(mean, 1, -1) - inner(mean, -1, 1)) / 4;
   // What a blur of 1 px^2 along one of the photograph's axes changes.
-  const auto effect = [&](const SpotView& view, int axis) -> InnerPatch {
+  const auto effect = [&](const PatchView& view, int axis) -> InnerPatch {
     const Eigen::Vector2d along = view.step_from_px.col(axis);
     return (along.x() * along.x() * dxx + along.y() * along.y() * dyy +
             2 * along.x() * along.y() * dxy) /
@@ -93,7 +93,7 @@ PairEvidence ComparePair(const SpotView& first,
 // In the order of the pairs (0, 1), (0, 2), ..., (1, 2), ...
 std::vector<PairEvidence> ComparePairs(const Patch& patch, const SharpnessOptions& options) {
   std::vector<SmoothPatch> smooth;
-  for (const SpotView& view : patch.views) smooth.push_back(Smooth(view.luma));
+  for (const PatchView& view : patch.views) smooth.push_back(Smooth(view.luma));
   std::vector<PairEvidence> evidence;
   for (size_t a = 0; a < smooth.size(); ++a) {
     for (size_t b = a + 1; b < smooth.size(); ++b) {
@@ -122,7 +122,7 @@ std::vector<Sharpness> MeasureSharpness(const std::vector<Patch>& patches,
   Eigen::VectorXd right =
       Eigen::VectorXd::Constant(num_unknowns, options.ordinary_weight * options.ordinary_blur_px2);
   for (size_t i = 0; i < patches.size(); ++i) {
-    const std::vector<SpotView>& views = patches[i].views;
+    const std::vector<PatchView>& views = patches[i].views;
     size_t pair = 0;
     for (size_t a = 0; a < views.size(); ++a) {
       for (size_t b = a + 1; b < views.size(); ++b, ++pair) {

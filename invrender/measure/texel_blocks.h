@@ -14,10 +14,10 @@ namespace groundglass {
 
 // Side of a block in texels. Colour, consensus and choice are settled on blocks; texels only
 // follow.
-constexpr int kCellTexels = 5;
+constexpr int kBlockTexels = 5;
 
 // One block as one photograph shows it.
-struct CellView {
+struct BlockView {
   float quality = 0;         // 0: not seen
   float radius_squared = 0;  // PreparedPhoto::RadiusSquared
   bool is_usable = false;    // neither burnt out nor black, and clear of borders
@@ -28,11 +28,11 @@ struct CellView {
 struct ChartBlocks {
   int width = 0;  // blocks
   int height = 0;
-  std::vector<int> photos;      // those that see some of the chart, ascending
-  std::vector<CellView> views;  // [block * photos.size() + k]
+  std::vector<int> photos;       // those that see some of the chart, ascending
+  std::vector<BlockView> views;  // [block * photos.size() + k]
 
-  int NumCells() const { return width * height; }
-  const CellView* ViewsOf(int block) const { return &views[block * photos.size()]; }
+  int NumBlocks() const { return width * height; }
+  const BlockView* ViewsOf(int block) const { return &views[block * photos.size()]; }
 };
 
 // The photographs that may see some of the chart, ascending.

@@ -35,9 +35,10 @@ void ChooseTexelSizes(const PolygonModel& model,
       for (const Eigen::Vector3d& point : SpreadPoints(model, face)) {
         double best = 0;
         for (size_t i = 0; i < seeing.size(); ++i) {
-          const auto sighting = photos[seeing[i]].Observe(views[i], chart.PlanePoint(point), face);
-          if (!sighting) continue;
-          best = std::max(best, std::sqrt(std::abs(sighting->px_from_unit.determinant())));
+          const auto observation =
+              photos[seeing[i]].Observe(views[i], chart.PlanePoint(point), face);
+          if (!observation) continue;
+          best = std::max(best, std::sqrt(std::abs(observation->px_from_unit.determinant())));
         }
         if (best > 0) best_resolutions.push_back(best);
       }

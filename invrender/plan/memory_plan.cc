@@ -63,14 +63,14 @@ std::vector<SeenChart> CountViews(const std::vector<Chart>& charts,
   return seen;
 }
 
-double NumCells(double width_texels, double height_texels) {
-  return (std::floor(width_texels / kCellTexels) + 1) *
-         (std::floor(height_texels / kCellTexels) + 1);
+double NumBlocks(double width_texels, double height_texels) {
+  return (std::floor(width_texels / kBlockTexels) + 1) *
+         (std::floor(height_texels / kBlockTexels) + 1);
 }
 
 double WorkBytes(double width_texels, double height_texels, double num_views, int bits) {
   return width_texels * height_texels * (kChartBytes + (bits == 16 ? kWideChartBytes : 0)) +
-         NumCells(width_texels, height_texels) * num_views * kChoiceBytes;
+         NumBlocks(width_texels, height_texels) * num_views * kChoiceBytes;
 }
 
 // What pages, blocks and the largest chart at work take, with texels so many times as long.
@@ -89,7 +89,7 @@ ChartsBytes BytesAtScale(const std::vector<SeenChart>& charts,
     const double width = std::ceil(chart.width / scale);
     const double height = std::ceil(chart.height / scale);
     bytes.all += (width + gutters) * (height + gutters) * page_bytes +
-                 NumCells(width, height) * chart.num_views * sizeof(CellView);
+                 NumBlocks(width, height) * chart.num_views * sizeof(BlockView);
     bytes.largest =
         std::max(bytes.largest, WorkBytes(width, height, chart.num_views, options.bits));
   }

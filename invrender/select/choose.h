@@ -26,7 +26,7 @@ void PreferSharp(const ChartBlocks& blocks,
                  const ConsistencyOptions& options,
                  std::vector<float>& consistency);
 
-// Picks by resolution, angle and distance to borders (CellView::quality), times consistency.
+// Picks by resolution, angle and distance to borders (BlockView::quality), times consistency.
 ChartChoice ChooseBlocks(const ChartBlocks& blocks, std::vector<float> consistency);
 
 }  // namespace groundglass

@@ -19,11 +19,11 @@ class SeamProblem {
               const ColourModel& colour,
               const ChartChoice& choice,
               const SeamOptions& options)
-      : cells_(blocks), options_(options), num_photos_(blocks.photos.size()) {
-    data_.assign(blocks.views.size(), options.worst);
+      : blocks_(blocks), options_(options), num_photos_(blocks.photos.size()) {
+    data_.assign(blocks.views.size(), options.max_data_cost);
     colours_.resize(blocks.views.size(), Eigen::Array3f::Zero());
-    for (int block = 0; block < blocks.NumCells(); ++block) {
-      const CellView* views = blocks.ViewsOf(block);
+    for (int block = 0; block < blocks.NumBlocks(); ++block) {
+      const BlockView* views = blocks.ViewsOf(block);
       double best = 0;
       for (size_t k = 0; k < num_photos_; ++k) {
         best = std::max<double>(best, views[k].quality * choice.consistency[Index(block, k)]);
@@ -31,7 +31,7 @@ class SeamProblem {
       for (size_t k = 0; k < num_photos_; ++k) {
         if (views[k].quality <= 0) continue;
         const double score = views[k].quality * choice.consistency[Index(block, k)];
-        data_[Index(block, k)] = std::min(options_.worst, -std::log(score / best + 1e-30));
+        data_[Index(block, k)] = std::min(options_.max_data_cost, -std::log(score / best + 1e-30));
         colours_[Index(block, k)] =
             colour.Corrected(blocks.photos[k], chart, static_cast<int>(k), views[k]);
       }
@@ -40,17 +40,17 @@ class SeamProblem {
 
   // One expansion: every block keeps its photograph or takes `alpha`.
   void Expand(int alpha, std::vector<int>& labels) const {
-    std::vector<int> node(cells_.NumCells(), -1);
+    std::vector<int> node(blocks_.NumBlocks(), -1);
     int num_nodes = 0;
-    for (int block = 0; block < cells_.NumCells(); ++block) {
+    for (int block = 0; block < blocks_.NumBlocks(); ++block) {
       if (labels[block] >= 0 && labels[block] != alpha && IsSeen(block, alpha)) {
         node[block] = num_nodes++;
       }
     }
     if (num_nodes == 0) return;
     // What a seam to alpha costs a block; asked for by each of its neighbours.
-    std::vector<double> to_alpha(cells_.NumCells(), 0);
-    for (int block = 0; block < cells_.NumCells(); ++block) {
+    std::vector<double> to_alpha(blocks_.NumBlocks(), 0);
+    for (int block = 0; block < blocks_.NumBlocks(); ++block) {
       if (labels[block] >= 0) to_alpha[block] = Difference(block, labels[block], alpha);
     }
     cv::detail::GCGraph<double> graph(num_nodes + 2, 4 * num_nodes + 2);
@@ -61,22 +61,22 @@ class SeamProblem {
       const double less = std::min(keep, take);
       graph.addTermWeights(i, take - less, keep - less);
     };
-    for (int block = 0; block < cells_.NumCells(); ++block) {
+    for (int block = 0; block < blocks_.NumBlocks(); ++block) {
       if (node[block] < 0) continue;
       add(node[block], data_[Index(block, labels[block])], data_[Index(block, alpha)]);
     }
-    for (int y = 0; y < cells_.height; ++y) {
-      for (int x = 0; x < cells_.width; ++x) {
-        const int block = y * cells_.width + x;
-        if (x + 1 < cells_.width)
+    for (int y = 0; y < blocks_.height; ++y) {
+      for (int x = 0; x < blocks_.width; ++x) {
+        const int block = y * blocks_.width + x;
+        if (x + 1 < blocks_.width)
           Connect(block, block + 1, alpha, labels, node, to_alpha, add, graph);
-        if (y + 1 < cells_.height) {
-          Connect(block, block + cells_.width, alpha, labels, node, to_alpha, add, graph);
+        if (y + 1 < blocks_.height) {
+          Connect(block, block + blocks_.width, alpha, labels, node, to_alpha, add, graph);
         }
       }
     }
     graph.maxFlow();
-    for (int block = 0; block < cells_.NumCells(); ++block) {
+    for (int block = 0; block < blocks_.NumBlocks(); ++block) {
       if (node[block] < 0 || graph.inSourceSegment(node[block])) continue;
       labels[block] = alpha;
     }
@@ -84,19 +84,19 @@ class SeamProblem {
 
  private:
   size_t Index(int block, size_t k) const { return block * num_photos_ + k; }
-  bool IsSeen(int block, int k) const { return cells_.ViewsOf(block)[k].quality > 0; }
+  bool IsSeen(int block, int k) const { return blocks_.ViewsOf(block)[k].quality > 0; }
 
   // A metric in (k, l) for each block, as expansion needs: a capped norm.
   double Difference(int block, int k, int l) const {
     if (k == l) return 0;
-    if (!IsSeen(block, k) || !IsSeen(block, l)) return options_.most_different;
+    if (!IsSeen(block, k) || !IsSeen(block, l)) return options_.max_difference;
     const float squared = (colours_[Index(block, k)] - colours_[Index(block, l)]).square().mean();
-    return std::min(options_.most_different, std::sqrt(static_cast<double>(squared)));
+    return std::min(options_.max_difference, std::sqrt(static_cast<double>(squared)));
   }
   double Seam(int block, int other, int k, int l) const {
     if (k == l) return 0;
-    return options_.side +
-           options_.per_difference * (Difference(block, k, l) + Difference(other, k, l)) / 2;
+    return options_.seam_cost +
+           options_.difference_cost * (Difference(block, k, l) + Difference(other, k, l)) / 2;
   }
 
   template <typename Add>
@@ -115,9 +115,9 @@ class SeamProblem {
     const double both_keep = Seam(block, other, k, l);
     const auto to_alpha_from = [&](int label) {
       if (label == alpha) return 0.0;
-      const double at_cell = label == k ? to_alpha[block] : Difference(block, label, alpha);
+      const double at_block = label == k ? to_alpha[block] : Difference(block, label, alpha);
       const double at_other = label == l ? to_alpha[other] : Difference(other, label, alpha);
-      return options_.side + options_.per_difference * (at_cell + at_other) / 2;
+      return options_.seam_cost + options_.difference_cost * (at_block + at_other) / 2;
     };
     if (node[other] < 0) {
       add(node[block], both_keep, to_alpha_from(l));
@@ -129,14 +129,14 @@ class SeamProblem {
     }
     // Kolmogorov and Zabih (PAMI 2004): two terms and one edge.
     const double other_takes = to_alpha_from(k);
-    const double cell_takes = k == l ? other_takes : to_alpha_from(l);
-    add(node[block], both_keep, cell_takes);
-    add(node[other], cell_takes, 0);
+    const double block_takes = k == l ? other_takes : to_alpha_from(l);
+    add(node[block], both_keep, block_takes);
+    add(node[other], block_takes, 0);
     graph.addEdges(
-        node[block], node[other], std::max(0.0, other_takes + cell_takes - both_keep), 0);
+        node[block], node[other], std::max(0.0, other_takes + block_takes - both_keep), 0);
   }
 
-  const ChartBlocks& cells_;
+  const ChartBlocks& blocks_;
   const SeamOptions& options_;
   size_t num_photos_;
   std::vector<double> data_;

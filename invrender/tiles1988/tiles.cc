@@ -158,10 +158,10 @@ void MakeTiles(const PolygonModel& model,
 
   // False for a face that is seen edge-on or from behind, as one painted by hand may be.
   const auto place = [&](int x, int y, const FacePlane& plane, TileCorner& corner) {
-    const Eigen::Vector3d sight = UnprojectToWorld(camera, {x + 0.5, y + 0.5});
-    const double towards = plane.normal_in_world.dot(sight);
+    const Eigen::Vector3d ray = UnprojectToWorld(camera, {x + 0.5, y + 0.5});
+    const double towards = plane.normal_in_world.dot(ray);
     const double distance = (plane.offset - plane.normal_in_world.dot(eye)) / towards;
-    const Eigen::Vector3f site = SiteFromWorld(eye + distance * sight).cast<float>();
+    const Eigen::Vector3f site = SiteFromWorld(eye + distance * ray).cast<float>();
     const float* rgb = codes.At(x, y);
     corner = {site.x(), site.y(), site.z(), rgb[0], rgb[1], rgb[2]};
     return towards < 0 && distance > 0;

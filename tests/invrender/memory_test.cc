@@ -130,7 +130,7 @@ struct LargeBrick {
   }
 };
 
-TEST(Memory, MasksTakeNoMoreThanASurveyForetells) {
+TEST(Memory, MasksTakeNoMoreThanASurveyEstimates) {
   LargeBrick brick(2);
   const std::vector<PreparedPhoto> survey = brick.Survey();
   for (int halvings = 0; halvings <= 3; ++halvings) {
@@ -139,9 +139,9 @@ TEST(Memory, MasksTakeNoMoreThanASurveyForetells) {
       num_bytes +=
           static_cast<double>(brick.Prepare(i, {.num_halvings = halvings}).Mask().NumBytes());
     }
-    const double foretold = EstimateMaskBytes(survey, halvings);
-    EXPECT_LE(num_bytes, foretold) << halvings;
-    EXPECT_GE(num_bytes, 0.4 * foretold) << halvings;
+    const double estimate = EstimateMaskBytes(survey, halvings);
+    EXPECT_LE(num_bytes, estimate) << halvings;
+    EXPECT_GE(num_bytes, 0.4 * estimate) << halvings;
     // A pixel takes less than a byte even where it is finest.
     EXPECT_LT(num_bytes, 2.0 * LargeBrick::kWidth * LargeBrick::kHeight);
   }

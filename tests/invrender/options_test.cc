@@ -48,9 +48,9 @@ TEST(InvrenderOptions, CheckNamesEachField) {
       {"grain.dark", [](auto& o) { o.grain.dark = 0; }},
       {"colour.even_light", [](auto& o) { o.colour.even_light = 0; }},
       {"consistency.agreeing", [](auto& o) { o.consistency.agreeing = 0; }},
-      {"consistency.palette.bins_per_unit",
-       [](auto& o) { o.consistency.palette.bins_per_unit = 0; }},
-      {"seams.worst", [](auto& o) { o.seams.worst = 0; }},
+      {"consistency.histogram.bins_per_unit",
+       [](auto& o) { o.consistency.histogram.bins_per_unit = 0; }},
+      {"seams.max_data_cost", [](auto& o) { o.seams.max_data_cost = 0; }},
       {"blend.ramp_px", [](auto& o) { o.blend.ramp_px = 0; }},
       {"dilate.slit_texels", [](auto& o) { o.dilate.slit_texels = 0; }},
       {"fill.radius_texels", [](auto& o) { o.fill.radius_texels = 0; }},
@@ -147,61 +147,62 @@ TEST(InvrenderOptions, ColourCheckNamesEachField) {
   });
 }
 
-TEST(InvrenderOptions, PaletteCheckNamesEachField) {
+TEST(InvrenderOptions, HistogramCheckNamesEachField) {
   [[maybe_unused]] const auto& [bins_per_unit,
                                 fewest_counts,
                                 ordinary_share,
                                 unseen_share,
-                                most_surprise] = PaletteOptions();
-  ExpectCheckNamesEach<PaletteOptions>({
+                                max_negative_log_likelihood] = HistogramOptions();
+  ExpectCheckNamesEach<HistogramOptions>({
       {"bins_per_unit", [](auto& o) { o.bins_per_unit = -1; }},
       {"fewest_counts", [](auto& o) { o.fewest_counts = -1; }},
       {"ordinary_share", [](auto& o) { o.ordinary_share = -1; }},
       {"unseen_share", [](auto& o) { o.unseen_share = -1; }},
-      {"most_surprise", [](auto& o) { o.most_surprise = -1; }},
+      {"max_negative_log_likelihood", [](auto& o) { o.max_negative_log_likelihood = -1; }},
   });
 }
 
 TEST(InvrenderOptions, ConsistencyCheckNamesEachField) {
   [[maybe_unused]] const auto& [ordinary_difference,
-                                largest_dissent,
+                                max_inconsistency,
                                 agreeing,
-                                palette_weight,
+                                histogram_weight,
                                 blur_weight,
                                 vote_unevenness,
                                 even_light_preference,
-                                cost_reach,
-                                dissent_reach,
-                                consensus_reach,
+                                cost_radius,
+                                inconsistency_radius,
+                                consensus_radius,
                                 majority,
                                 fewest_to_compare,
                                 disputed_weight,
-                                palette] = ConsistencyOptions();
+                                histogram] = ConsistencyOptions();
   ExpectCheckNamesEach<ConsistencyOptions>({
       {"ordinary_difference", [](auto& o) { o.ordinary_difference = -1; }},
-      {"largest_dissent", [](auto& o) { o.largest_dissent = -1; }},
+      {"max_inconsistency", [](auto& o) { o.max_inconsistency = -1; }},
       {"agreeing", [](auto& o) { o.agreeing = -1; }},
-      {"palette_weight", [](auto& o) { o.palette_weight = -1; }},
+      {"histogram_weight", [](auto& o) { o.histogram_weight = -1; }},
       {"blur_weight", [](auto& o) { o.blur_weight = -1; }},
       {"vote_unevenness", [](auto& o) { o.vote_unevenness = -1; }},
       {"even_light_preference", [](auto& o) { o.even_light_preference = -1; }},
-      {"cost_reach", [](auto& o) { o.cost_reach = -1; }},
-      {"dissent_reach", [](auto& o) { o.dissent_reach = -1; }},
-      {"consensus_reach", [](auto& o) { o.consensus_reach = -1; }},
+      {"cost_radius", [](auto& o) { o.cost_radius = -1; }},
+      {"inconsistency_radius", [](auto& o) { o.inconsistency_radius = -1; }},
+      {"consensus_radius", [](auto& o) { o.consensus_radius = -1; }},
       {"majority", [](auto& o) { o.majority = -1; }},
       {"fewest_to_compare", [](auto& o) { o.fewest_to_compare = -1; }},
       {"disputed_weight", [](auto& o) { o.disputed_weight = -1; }},
-      {"palette.fewest_counts", [](auto& o) { o.palette.fewest_counts = 0; }},
+      {"histogram.fewest_counts", [](auto& o) { o.histogram.fewest_counts = 0; }},
   });
 }
 
 TEST(InvrenderOptions, SeamCheckNamesEachField) {
-  [[maybe_unused]] const auto& [worst, side, per_difference, most_different] = SeamOptions();
+  [[maybe_unused]] const auto& [max_data_cost, seam_cost, difference_cost, max_difference] =
+      SeamOptions();
   ExpectCheckNamesEach<SeamOptions>({
-      {"worst", [](auto& o) { o.worst = -1; }},
-      {"side", [](auto& o) { o.side = -1; }},
-      {"per_difference", [](auto& o) { o.per_difference = -1; }},
-      {"most_different", [](auto& o) { o.most_different = -1; }},
+      {"max_data_cost", [](auto& o) { o.max_data_cost = -1; }},
+      {"seam_cost", [](auto& o) { o.seam_cost = -1; }},
+      {"difference_cost", [](auto& o) { o.difference_cost = -1; }},
+      {"max_difference", [](auto& o) { o.max_difference = -1; }},
   });
 }
 

@@ -232,11 +232,11 @@ TEST(RejectOccluders, WindowOnWhichNoTwoAgreeIsTakenFromWhoShowsItBest) {
 }
 
 TEST(ColourHistogram, KnownColoursDoNotSurprise) {
-  ColourHistogram palette;
-  EXPECT_EQ(palette.NegativeLogLikelihood(Eigen::Array3f(-1, -1, -1)), 0);
-  for (int i = 0; i < 1000; ++i) palette.Add(Eigen::Array3f(-1 + 0.0002f * i, -1.5f, -2));
-  EXPECT_EQ(palette.NegativeLogLikelihood(Eigen::Array3f(-0.9f, -1.5f, -2)), 0);
-  EXPECT_GT(palette.NegativeLogLikelihood(Eigen::Array3f(-3, -0.1f, -0.1f)), 5);
+  ColourHistogram histogram;
+  EXPECT_EQ(histogram.NegativeLogLikelihood(Eigen::Array3f(-1, -1, -1)), 0);
+  for (int i = 0; i < 1000; ++i) histogram.Add(Eigen::Array3f(-1 + 0.0002f * i, -1.5f, -2));
+  EXPECT_EQ(histogram.NegativeLogLikelihood(Eigen::Array3f(-0.9f, -1.5f, -2)), 0);
+  EXPECT_GT(histogram.NegativeLogLikelihood(Eigen::Array3f(-3, -0.1f, -0.1f)), 5);
 }
 
 TEST(SelectPhotographs, RejectedAreLeftOutAndReviewWeighsLess) {

@@ -24,8 +24,8 @@ class BlendedWall : public testing::Test {
   static constexpr int kMiddle = 16;  // a row far from borders
 
   BlendedWall() {
-    for (int block = 0; block < blocks_.NumCells(); ++block) {
-      choice_.best.push_back(block % kColumns < kSeam / kCellTexels ? 0 : 1);
+    for (int block = 0; block < blocks_.NumBlocks(); ++block) {
+      choice_.best.push_back(block % kColumns < kSeam / kBlockTexels ? 0 : 1);
     }
     choice_.consistency.assign(blocks_.views.size(), 1);
   }
@@ -37,10 +37,11 @@ class BlendedWall : public testing::Test {
   }
   // Weights by k.
   static std::map<int, double> Weights(const Blender& blender, int x, int y) {
-    std::vector<Contribution> ingredients;
-    blender.Gather(x, y, ingredients);
+    std::vector<Contribution> contributions;
+    blender.Gather(x, y, contributions);
     std::map<int, double> weights;
-    for (const Contribution& ingredient : ingredients) weights[ingredient.k] = ingredient.weight;
+    for (const Contribution& contribution : contributions)
+      weights[contribution.k] = contribution.weight;
     return weights;
   }
 
@@ -99,7 +100,7 @@ TEST_F(BlendedWall, RunsEndAtSeamsBordersAndTheChartsEnd) {
   ASSERT_EQ(texels.width(), 200);
   const ChartBlocks blocks = MakeBlocks(40, 20, 2);
   ChartChoice choice;
-  for (int block = 0; block < blocks.NumCells(); ++block) {
+  for (int block = 0; block < blocks.NumBlocks(); ++block) {
     choice.best.push_back(block % 40 < 20 ? 0 : 1);
   }
   choice.consistency.assign(blocks.views.size(), 1);
@@ -124,7 +125,7 @@ TEST_F(BlendedWall, GoodTexelsHaveAWeightyPhotographBeyondTheMargin) {
   const Blender blender = Make();
   const auto is_good = [&](double weight, double border_px) {
     Contribution contribution{0, weight, true, {}};
-    contribution.sighting.border_px = border_px;
+    contribution.observation.border_px = border_px;
     return blender.IsGood({contribution});
   };
   EXPECT_TRUE(is_good(0.31, 2));
@@ -135,13 +136,13 @@ TEST_F(BlendedWall, GoodTexelsHaveAWeightyPhotographBeyondTheMargin) {
 // A pixel's diagonal is 0.0707 units; margin and reach are three of them, 1.7 texels.
 TEST_F(BlendedWall, ReachIsTheMarginInTexels) {
   const Blender blender = Make();
-  SurfaceObservation sighting;
-  sighting.px_from_unit = 20 * Eigen::Matrix2d::Identity();
-  EXPECT_EQ(blender.ReachFromBorder(sighting), 3);
-  sighting.px_from_unit = 0.01 * Eigen::Matrix2d::Identity();
-  EXPECT_EQ(blender.ReachFromBorder(sighting), 32);
-  sighting.px_from_unit.setZero();
-  EXPECT_EQ(blender.ReachFromBorder(sighting), 1);
+  SurfaceObservation observation;
+  observation.px_from_unit = 20 * Eigen::Matrix2d::Identity();
+  EXPECT_EQ(blender.ReachFromBorder(observation), 3);
+  observation.px_from_unit = 0.01 * Eigen::Matrix2d::Identity();
+  EXPECT_EQ(blender.ReachFromBorder(observation), 32);
+  observation.px_from_unit.setZero();
+  EXPECT_EQ(blender.ReachFromBorder(observation), 1);
 }
 
 }  // namespace
