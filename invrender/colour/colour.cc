@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "invrender/colour/colour.h"
 
+#include "invrender/measure/median.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -9,32 +11,6 @@
 
 namespace groundglass {
 namespace {
-
-// The smallest value with half of the weight at or below it.
-float WeightedMedian(std::vector<std::pair<float, float>>& value_and_weight) {
-  std::sort(value_and_weight.begin(), value_and_weight.end());
-  double total = 0;
-  for (const auto& [value, weight] : value_and_weight) total += weight;
-  double sum = 0;
-  for (const auto& [value, weight] : value_and_weight) {
-    sum += weight;
-    if (sum >= total / 2) return value;
-  }
-  return 0;
-}
-
-// The same where all weigh the same.
-float LowerMedian(std::vector<float>& values) {
-  const size_t middle = (values.size() - 1) / 2;
-  std::nth_element(values.begin(), values.begin() + middle, values.end());
-  return values[middle];
-}
-
-float Median(std::vector<float>& values) {
-  const size_t middle = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + middle, values.end());
-  return values[middle];
-}
 
 // Every how manieth block to look at, so that about `enough` are, and not always the same columns.
 int StepThrough(const ChartBlocks& blocks, int enough) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "invrender/inputs/colour_options.h"
-#include "invrender/measure/texel_blocks.h"
+#include "invrender/measure/chart_blocks.h"
 
 #include <Eigen/Dense>
 

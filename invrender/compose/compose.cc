@@ -3,6 +3,7 @@
 #include "invrender/compose/compose.h"
 
 #include "invrender/compose/blender.h"
+#include "invrender/photos/srgb_codes.h"
 
 #include <tbb/parallel_for.h>
 
@@ -62,11 +63,15 @@ using BandLookups = std::vector<std::vector<Lookup>>;
 // A chart's texels on the way.
 class ChartComposer {
  public:
-  ChartComposer(const ComposeInputs& inputs, const ColourModel& colour, const BakeOptions& options)
+  ChartComposer(const ComposeInputs& inputs,
+                const ColourModel& colour,
+                const BlendOptions& options,
+                int bits)
       : inputs_(inputs),
         width_(inputs.chart.width_texels),
         height_(inputs.chart.height_texels),
-        blender_(inputs, options.blend, options.border_margin_px, options.smooth_seams),
+        sampling_(options.sampling),
+        blender_(inputs, options),
         footprints_((width_ + kFootprintStep - 1) / kFootprintStep,
                     (height_ + kFootprintStep - 1) / kFootprintStep,
                     1) {
@@ -74,7 +79,7 @@ class ChartComposer {
     for (size_t k = 0; k < photos.size(); ++k) {
       corrections_.emplace_back(colour, photos[k], inputs.chart_index, static_cast<int>(k));
     }
-    if (options.bits == 16) {
+    if (bits == 16) {
       pixels_.srgb16 = Image16(width_, height_, 3);
     } else {
       pixels_.srgb8 = Image8(width_, height_, 3);
@@ -179,7 +184,7 @@ class ChartComposer {
               lookup.weight *
               pyramid->Sample(image_px,
                               lookup.px_from_unit.cast<double>() * inputs_.chart.texel_size,
-                              kMaxTaps) *
+                              sampling_) *
               corrections_[k].At(photo.RadiusSquared(image_px));
         }
       });
@@ -219,12 +224,11 @@ class ChartComposer {
 
   // Of every so manieth texel each way the footprint is kept.
   static constexpr int kFootprintStep = 4;
-  // For one texel's look-up along each side (PhotoPyramid::Sample).
-  static constexpr int kMaxTaps = 4;
 
   const ComposeInputs& inputs_;
   int width_;
   int height_;
+  const SamplingOptions& sampling_;
   Blender blender_;
   std::vector<CorrectionTable> corrections_;  // by k
   ChartPixels pixels_;
@@ -235,8 +239,9 @@ class ChartComposer {
 
 ChartPixels ComposeChart(const ComposeInputs& inputs,
                          const ColourModel& colour,
-                         const BakeOptions& options) {
-  ChartComposer composer(inputs, colour, options);
+                         const BlendOptions& options,
+                         int bits) {
+  ChartComposer composer(inputs, colour, options, bits);
   const int height = inputs.chart.height_texels;
   const int band_rows = std::max(16, kBandTexels / inputs.chart.width_texels);
   for (int y0 = 0; y0 < height; y0 += band_rows) {

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "invrender/compose/fill.h"
 
+#include "scene/textured_model.h"
+
 #include <opencv2/core.hpp>
 #include <opencv2/photo.hpp>
 

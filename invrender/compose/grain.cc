@@ -2,10 +2,15 @@
 // Part of Groundglass.
 #include "invrender/compose/grain.h"
 
+#include "invrender/measure/bounded_least_squares.h"
+#include "invrender/measure/median.h"
+#include "invrender/photos/srgb_codes.h"
+
 #include <opencv2/imgproc.hpp>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -158,17 +163,16 @@ std::vector<double> SolveVariances(const std::map<PhotoPair, std::vector<float>>
     std::vector<float> sorted = unsorted;
     const auto rank =
         static_cast<size_t>(options.calm_quantile * static_cast<double>(sorted.size()));
-    std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
+    const float calm = ValueAtRank(sorted, rank);
     const double weight = static_cast<double>(sorted.size());
     for (const int i : {photos.first, photos.second}) {
-      right[i] += weight * sorted[rank];
+      right[i] += weight * calm;
       for (const int j : {photos.first, photos.second}) normal(i, j) += weight;
     }
-    halves.push_back(sorted[rank] / 2);
+    halves.push_back(calm / 2);
   }
   if (halves.empty()) return std::vector<double>(num_photos, 0);
-  std::nth_element(halves.begin(), halves.begin() + halves.size() / 2, halves.end());
-  right.array() += options.prior_patches * halves[halves.size() / 2];
+  right.array() += options.prior_patches * Median(halves);
   const Eigen::VectorXd variances = SolveBounded(normal, right, 0);
   return {variances.begin(), variances.end()};
 }
@@ -182,8 +186,7 @@ Image16 LumaOf(const Raster<Code>& srgb) {
     const Code* from = srgb.At(0, y);
     uint16_t* to = luma.At(0, y);
     for (int x = 0; x < srgb.width; ++x, from += 3) {
-      const float value = 0.2126f * from[0] + 0.7152f * from[1] + 0.0722f * from[2];
-      to[x] = static_cast<uint16_t>(kScale * value + 0.5f);
+      to[x] = static_cast<uint16_t>(kScale * Luma(from[0], from[1], from[2]) + 0.5f);
     }
   });
   return luma;
@@ -274,14 +277,9 @@ Grain MeasureGrain(const std::vector<Patch>& patches,
   return grain;
 }
 
-void SmoothGrain(const Chart& chart,
-                 int chart_index,
-                 const ChartBlocks& blocks,
-                 const ColourModel& colour,
-                 const Grain& grain,
-                 const GrainOptions& options,
-                 ChartPixels& pixels) {
-  const double certainty = grain.certainty[chart_index];
+void SmoothGrain(const GrainInputs& inputs, const GrainOptions& options, ChartPixels& pixels) {
+  const Grain& grain = inputs.grain;
+  const double certainty = grain.certainty[inputs.chart_index];
   if (certainty <= 0) return;
   std::vector<std::vector<float>> footprints(grain.variances.size());
   for (const FaceSource& source : pixels.sources) {
@@ -289,16 +287,15 @@ void SmoothGrain(const Chart& chart,
     all.insert(all.end(), source.footprints.begin(), source.footprints.end());
   }
   std::vector<std::array<float, kGrainBands>> variances(grain.variances.size() + 1, {0, 0});
-  for (size_t k = 0; k < blocks.photos.size(); ++k) {
-    const int photo = blocks.photos[k];
-    std::vector<float>& all = footprints[photo];
-    if (all.empty()) continue;
-    std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
+  for (size_t k = 0; k < inputs.blocks.photos.size(); ++k) {
+    const int photo = inputs.blocks.photos[k];
+    if (footprints[photo].empty()) continue;
     // Texels of several pixels have less grain.
-    const double texel_px = std::max(1.0, chart.texel_size / all[all.size() / 2]);
+    const double texel_px = std::max(1.0, inputs.chart.texel_size / Median(footprints[photo]));
     // A correction multiplies radiance; codes go with its root of about 2.4.
     const double log_gain =
-        colour.Correction(photo, chart_index, static_cast<int>(k), options.vignetting_at)
+        inputs.colour
+            .Correction(photo, inputs.chart_index, static_cast<int>(k), options.vignetting_at)
             .log()
             .mean() /
         2.4;

@@ -3,7 +3,7 @@
 #include "invrender/measure/patches.h"
 
 #include "invrender/charts/spread_points.h"
-#include "scene/srgb.h"
+#include "invrender/photos/srgb_codes.h"
 
 #include <tbb/parallel_for.h>
 
@@ -15,19 +15,15 @@
 namespace groundglass {
 namespace {
 
-constexpr size_t kMostPatches = 3000;
-constexpr size_t kMostViews = 6;
-// Pixels longer than this many of the best photograph's say little of fine detail.
-constexpr double kCoarsest = 2;
-constexpr double kClearPx = 3;  // of borders
-
 Eigen::Vector2d SampleInPlane(const Patch& patch, double row, double column) {
   return patch.corner_in_plane + patch.step * Eigen::Vector2d(column, row);
 }
 
 // One on each of the points that SpreadPoints gives, thinned out evenly; corner_in_plane is the
 // patch's middle for now.
-std::vector<Patch> SpreadPatches(const PolygonModel& model, const std::vector<Chart>& charts) {
+std::vector<Patch> SpreadPatches(const PolygonModel& model,
+                                 const std::vector<Chart>& charts,
+                                 const PatchOptions& options) {
   std::vector<Patch> patches;
   for (size_t chart = 0; chart < charts.size(); ++chart) {
     for (const int face : charts[chart].faces) {
@@ -39,20 +35,23 @@ std::vector<Patch> SpreadPatches(const PolygonModel& model, const std::vector<Ch
       }
     }
   }
-  if (patches.size() <= kMostPatches) return patches;
+  const auto num_kept = static_cast<size_t>(options.max_patches);
+  if (patches.size() <= num_kept) return patches;
   std::vector<Patch> kept;
-  for (size_t i = 0; i < kMostPatches; ++i)
-    kept.push_back(patches[i * patches.size() / kMostPatches]);
+  for (size_t i = 0; i < num_kept; ++i) kept.push_back(patches[i * patches.size() / num_kept]);
   return kept;
 }
 
-bool ShowsWhole(const PreparedPhoto& photo, const ChartInCamera& in_camera, const Patch& patch) {
+bool ShowsWhole(const PreparedPhoto& photo,
+                const ChartInCamera& in_camera,
+                const Patch& patch,
+                const PatchOptions& options) {
   constexpr double kLast = kPatchSide - 1;
   for (const double row : {0.0, kLast / 2, kLast}) {
     for (const double column : {0.0, kLast / 2, kLast}) {
       const auto observation =
           photo.Observe(in_camera, SampleInPlane(patch, row, column), patch.face);
-      if (!observation || observation->border_px < kClearPx) return false;
+      if (!observation || observation->border_px < options.clear_px) return false;
     }
   }
   return true;
@@ -61,6 +60,7 @@ bool ShowsWhole(const PreparedPhoto& photo, const ChartInCamera& in_camera, cons
 // Settles the patch's place and who shows it; no views if fewer than two do.
 void FindViews(const std::vector<Chart>& charts,
                const std::vector<PreparedPhoto>& photos,
+               const PatchOptions& options,
                Patch& patch) {
   const Eigen::Vector2d middle = patch.corner_in_plane;
   const auto in_camera = [&](int photo) {
@@ -69,7 +69,7 @@ void FindViews(const std::vector<Chart>& charts,
   std::vector<PatchView> views;  // of hundreds of photographs, so that the patch keeps a few only
   for (int photo = 0; photo < static_cast<int>(photos.size()); ++photo) {
     const auto observation = photos[photo].Observe(in_camera(photo), middle, patch.face);
-    if (!observation || observation->border_px < kClearPx) continue;
+    if (!observation || observation->border_px < options.clear_px) continue;
     const double px_per_unit = std::sqrt(std::abs(observation->px_from_unit.determinant()));
     if (!(px_per_unit > 0)) continue;
     PatchView& view = views.emplace_back();
@@ -86,11 +86,11 @@ void FindViews(const std::vector<Chart>& charts,
   patch.corner_in_plane = middle - Eigen::Vector2d::Constant(patch.step * (kPatchSide - 1) / 2);
   for (PatchView& view : views) view.step_from_px *= best / view.px_per_unit;
   std::erase_if(views, [&](const PatchView& view) {
-    return view.px_per_unit * kCoarsest < best ||
-           !ShowsWhole(photos[view.photo], in_camera(view.photo), patch);
+    return view.px_per_unit * options.max_coarseness < best ||
+           !ShowsWhole(photos[view.photo], in_camera(view.photo), patch, options);
   });
   if (views.size() < 2) return;
-  if (views.size() > kMostViews) views.resize(kMostViews);
+  views.resize(std::min(views.size(), static_cast<size_t>(options.max_views)));
   patch.views.assign(views.begin(), views.end());
 }
 
@@ -99,13 +99,13 @@ PatchSamples SamplePatch(const Chart& chart,
                          const PhotoPyramid& pixels,
                          const Patch& patch) {
   const ChartInCamera in_camera = photo.View(chart, patch.chart);
-  const Eigen::Array3f luma(0.2126f, 0.7152f, 0.0722f);
   PatchSamples samples;
   for (int y = 0; y < kPatchSide; ++y) {
     for (int x = 0; x < kPatchSide; ++x) {
       const Eigen::Vector2d image_px = photo.Locate(in_camera, SampleInPlane(patch, y, x));
-      const Eigen::Array3f radiance = pixels.Sample(image_px, Eigen::Matrix2d::Zero(), 1);
-      samples(y, x) = Srgb16FromRadiance(std::min(1.0f, (radiance * luma).sum()));
+      const Eigen::Array3f radiance = pixels.Sample(image_px, Eigen::Matrix2d::Zero(), kOneTap);
+      samples(y, x) =
+          Srgb16FromRadiance(std::min(1.0f, Luma(radiance[0], radiance[1], radiance[2])));
     }
   }
   return samples;
@@ -115,10 +115,11 @@ PatchSamples SamplePatch(const Chart& chart,
 
 std::vector<Patch> SamplePatches(const PolygonModel& model,
                                  const std::vector<Chart>& charts,
-                                 const std::vector<PreparedPhoto>& photos) {
-  std::vector<Patch> patches = SpreadPatches(model, charts);
+                                 const std::vector<PreparedPhoto>& photos,
+                                 const PatchOptions& options) {
+  std::vector<Patch> patches = SpreadPatches(model, charts, options);
   tbb::parallel_for(
-      size_t{0}, patches.size(), [&](size_t i) { FindViews(charts, photos, patches[i]); });
+      size_t{0}, patches.size(), [&](size_t i) { FindViews(charts, photos, options, patches[i]); });
   std::erase_if(patches, [](const Patch& patch) { return patch.views.empty(); });
   for (int photo = 0; photo < static_cast<int>(photos.size()); ++photo) {
     std::vector<std::pair<const Patch*, PatchView*>> wanted;
@@ -135,20 +136,6 @@ std::vector<Patch> SamplePatches(const PolygonModel& model,
     });
   }
   return patches;
-}
-
-Eigen::VectorXd SolveBounded(const Eigen::MatrixXd& normal,
-                             const Eigen::VectorXd& right,
-                             double least) {
-  constexpr int kRounds = 200;
-  Eigen::VectorXd x = Eigen::VectorXd::Constant(right.size(), least);
-  for (int round = 0; round < kRounds; ++round) {
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      const double rest = right[i] - normal.col(i).dot(x);
-      x[i] = std::max(least, x[i] + rest / normal(i, i));
-    }
-  }
-  return x;
 }
 
 }  // namespace groundglass

@@ -2,6 +2,9 @@
 // Part of Groundglass.
 #include "invrender/measure/sharpness.h"
 
+#include "invrender/measure/bounded_least_squares.h"
+#include "invrender/measure/median.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -142,8 +145,7 @@ std::vector<Sharpness> MeasureSharpness(const std::vector<Patch>& patches,
     sharpness[i].blur_px2 = blur.segment<2>(static_cast<Eigen::Index>(2 * i));
     means.push_back(sharpness[i].blur_px2.mean());
   }
-  std::nth_element(means.begin(), means.begin() + num_photos / 2, means.end());
-  const double ordinary = std::max(options.ordinary_blur_px2, means[num_photos / 2]);
+  const double ordinary = std::max(options.ordinary_blur_px2, Median(means));
   for (Sharpness& s : sharpness) {
     const double worse = s.blur_px2.maxCoeff() / ordinary;
     const double better = std::max(1.0, s.blur_px2.minCoeff() / ordinary);

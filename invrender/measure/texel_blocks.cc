@@ -42,8 +42,8 @@ BlockView ViewBlock(const PreparedPhoto& photo,
   view.quality = static_cast<float>(photo.Quality(observation));
   view.radius_squared = static_cast<float>(photo.RadiusSquared(observation.image_px));
   // One tap at the level where the block is a pixel.
-  const Eigen::Array3f radiance =
-      pixels.Sample(observation.image_px, observation.px_from_unit * texel_size * kBlockTexels, 1);
+  const Eigen::Array3f radiance = pixels.Sample(
+      observation.image_px, observation.px_from_unit * texel_size * kBlockTexels, kOneTap);
   view.is_usable = radiance.minCoeff() > options.black && radiance.maxCoeff() < options.burnt &&
                    observation.border_px > options.clear_px;
   view.log_radiance = radiance.max(options.black / 4).log();

@@ -15,9 +15,6 @@
 namespace groundglass {
 namespace {
 
-// This many pixels beyond the margin a border no longer lowers a pixel's quality.
-constexpr double kTrustedFrom = 4;
-
 // 0 below `low`, 1 above `high`, smooth between.
 double SmoothStep(double low, double high, double value) {
   const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
@@ -35,6 +32,11 @@ Camera CoarserCamera(const Camera& camera, int side) {
   coarse.center_x_px /= side;
   coarse.center_y_px /= side;
   return coarse;
+}
+
+BorderOptions OfCoarserMask(BorderOptions options, int side) {
+  options.crease_bonus_px /= side;
+  return options;
 }
 
 // Coarse pixels are ignored if any of theirs are.
@@ -55,7 +57,9 @@ Image8 FindIgnored(const BakePhotograph& photograph, int index, const PhotoConte
   Image8 ignored;
   if (context.options.detect_mount) {
     context.cache.Get(index, [&](const PhotoPyramid& whole) {
-      ignored = whole.bits() == 16 ? FindMount(whole.Full16()) : FindMount(whole.Full());
+      const MountOptions& mount = context.options.mount;
+      ignored =
+          whole.bits() == 16 ? FindMount(whole.Full16(), mount) : FindMount(whole.Full(), mount);
     });
   }
   if (photograph.mask_file) {
@@ -107,22 +111,22 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
       position_in_world_(photograph.camera.PositionInWorld()),
       half_size_px_(photograph.camera.width_px / 2.0, photograph.camera.height_px / 2.0),
       weight_(photograph.weight),
-      frame_margin_px_(std::max(1.0, context.options.frame_margin * photograph.camera.width_px)),
-      border_margin_px_(context.options.border_margin_px),
+      options_(context.options),
+      frame_margin_px_(std::max(1.0, options_.frame_margin * photograph.camera.width_px)),
       tolerance_(visibility_.DefaultTolerance()),
       is_hand_painted_(photograph.faces_file.has_value()),
       mask_side_(mask.side),
       mask_from_image_(1.0 / mask_side_),
-      crease_bonus_px_(kCreaseBonusPx / mask_side_) {
+      borders_(OfCoarserMask(options_.borders, mask_side_)) {
   const size_t num_faces = context.model.faces.size();
   if (photograph.faces) {
     allowed_.assign(num_faces, 0);
     for (const int face : *photograph.faces) allowed_.at(face) = 1;
   }
   // Farther than this from a border, distance no longer matters.
+  const double clear_px = options_.border_margin_px + options_.quality.border_clear_px;
   const double farthest_px =
-      std::max((border_margin_px_ + kTrustedFrom - 0.5) / mask_side_ + 0.5, 3 + crease_bonus_px_) +
-      1;
+      std::max((clear_px - 0.5) / mask_side_ + 0.5, 3 + borders_.crease_bonus_px) + 1;
   visibility_map_ =
       VisibilityMap(mask.labels,
                     ComputeBorderDistance(context.model,
@@ -130,7 +134,7 @@ PreparedPhoto::PreparedPhoto(const BakePhotograph& photograph,
                                           mask.labels,
                                           chart_of_face_,
                                           mask.ignored,
-                                          crease_bonus_px_),
+                                          borders_),
                     std::min(kFarthestBorder, static_cast<int>(farthest_px * kBorderStepsPerPx)));
   is_shown_ = visibility_map_.ShownFaces(num_faces);
 }
@@ -141,13 +145,12 @@ PreparedPhoto PreparePhoto(const BakePhotograph& photograph,
                            const MaskDetail& detail) {
   const ImageSize size = ReadImageSize(photograph.image_file);
   CheckFitsCamera(photograph.image_file, size.width, size.height, photograph.camera);
-  const BakeOptions& options = context.options;
-  const bool is_asked_for = options.on_face_mask && !detail.is_survey;
+  const bool is_asked_for = context.on_face_mask && !detail.is_survey;
   PhotoMask mask;
   if (!photograph.faces_file) mask.side = 1 << detail.num_halvings;
   if (is_asked_for) {
     mask.labels = MakeLabels(photograph, context, 1);
-    options.on_face_mask(photograph, NumbersFromLabels(context.model, mask.labels));
+    context.on_face_mask(photograph, NumbersFromLabels(context.model, mask.labels));
   }
   if (photograph.faces_file) {
     mask.labels = ReadPaintedLabels(photograph, context.model);
@@ -190,7 +193,6 @@ bool PreparedPhoto::IsInView(const Eigen::Vector3d& point_in_world) const {
 }
 
 Eigen::Vector2d PreparedPhoto::StepInside(const Eigen::Vector2d& image_px, int chart_index) const {
-  constexpr double kStep = 0.3;  // px: more loses what stands at the border, less shows both sides
   const int x = static_cast<int>(image_px.x() * mask_from_image_);
   const int y = static_cast<int>(image_px.y() * mask_from_image_);
   int most = visibility_map_.At(x, y).border;
@@ -204,7 +206,7 @@ Eigen::Vector2d PreparedPhoto::StepInside(const Eigen::Vector2d& image_px, int c
       step = Eigen::Vector2d(i - x, j - y);
     }
   }
-  return kStep * step;
+  return options_.step_inside_px * step;
 }
 
 std::optional<SurfaceObservation> PreparedPhoto::Observe(const ChartInCamera& view,
@@ -228,7 +230,7 @@ std::optional<SurfaceObservation> PreparedPhoto::Observe(const ChartInCamera& vi
   if (is_hand_painted_) {
     const bool is_painted = pixel.label == face + 1;
     if (is_painted ? border_px == 0 : !IsPaintedBeside(*image_px, face)) return std::nullopt;
-  } else if (border_px < 1.5 + crease_bonus_px_) {
+  } else if (border_px < 1.5 + borders_.crease_bonus_px) {
     // The pixel's centre does not speak for its whole: ask for the very point.
     if (border_px == 0 && is_own) return std::nullopt;  // ignored
     const Eigen::Vector3d point_in_world = view.chart->origin_in_world +
@@ -240,7 +242,7 @@ std::optional<SurfaceObservation> PreparedPhoto::Observe(const ChartInCamera& vi
   }
   // 0 also half a pixel beside what was painted; in a coarse mask, of the pixel's nearest point.
   observation.border_px = is_own ? std::max(0.0, (border_px - 0.5) * mask_side_ + 0.5) : 0;
-  if (is_own && border_px < 1 + crease_bonus_px_) {
+  if (is_own && border_px < 1 + borders_.crease_bonus_px) {
     observation.image_px += StepInside(*image_px, view.chart_index);
   }
 
@@ -271,12 +273,16 @@ double PreparedPhoto::Quality(const SurfaceObservation& observation) const {
   const double large = std::sqrt((sum + root) / 2);
   const double small = large > 0 ? det / large : 0;
   const double resolution = std::sqrt(small * std::sqrt(det));  // small^(3/4) large^(1/4)
-  const double border =
-      1e-3 +
-      SmoothStep(border_margin_px_ - 1, border_margin_px_ + kTrustedFrom, observation.border_px);
-  const double frame = 0.5 + 0.5 * SmoothStep(frame_margin_px_,
-                                              frame_margin_px_ + 0.06 * camera_.width_px,
-                                              observation.frame_px);
+  const QualityOptions& quality = options_.quality;
+  const double margin_px = options_.border_margin_px;
+  const double border = quality.least_at_border + SmoothStep(margin_px - quality.border_ramp_px,
+                                                             margin_px + quality.border_clear_px,
+                                                             observation.border_px);
+  const double ramp_px = quality.frame_ramp_share * camera_.width_px;
+  const double frame =
+      quality.least_at_frame + (1 - quality.least_at_frame) * SmoothStep(frame_margin_px_,
+                                                                         frame_margin_px_ + ramp_px,
+                                                                         observation.frame_px);
   return weight_ * resolution * border * frame;
 }
 

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "invrender/charts/charts.h"
-#include "invrender/inputs/bake_options.h"
+#include "invrender/inputs/bake_photograph.h"
+#include "invrender/inputs/photo_options.h"
 #include "invrender/photos/earlier_model.h"
 #include "invrender/photos/photo_cache.h"
 #include "invrender/photos/visibility_map.h"
@@ -47,7 +48,7 @@ struct MaskDetail {
   // How often its sides are halved; masks painted by hand stay as they are.
   int num_halvings = 0;
   // Only what the model says: neither pixels nor masks of what to ignore are read, and
-  // BakeOptions::on_face_mask is not called.
+  // PhotoContext::on_face_mask is not called.
   bool is_survey = false;
 };
 
@@ -57,8 +58,9 @@ struct PhotoContext {
   const Visibility& visibility;
   const EarlierModel* earlier;  // if the model has changed since; nullptr if not
   const std::vector<int>& chart_of_face;
-  const BakeOptions& options;
+  const PhotoOptions& options;
   PhotoCache& cache;
+  FaceMaskObserver on_face_mask = {};  // gets the automatic mask, if it is set
 };
 
 // What of a photograph is to be looked at.
@@ -133,20 +135,20 @@ class PreparedPhoto {
   Eigen::Vector3d position_in_world_;
   Eigen::Vector2d half_size_px_;
   double weight_ = 1;
+  PhotoOptions options_;
   double frame_margin_px_ = 0;
-  double border_margin_px_ = 0;
   double tolerance_ = 0;
   bool is_hand_painted_ = false;
   int mask_side_ = 1;           // pixels of the image along a side of the mask's
   double mask_from_image_ = 1;  // 1 / mask_side_
-  double crease_bonus_px_ = 0;  // of the mask
+  BorderOptions borders_;       // in the mask's pixels
   std::vector<char> allowed_;
   std::vector<bool> is_shown_;
   VisibilityMap visibility_map_;
 };
 
 // Reads the image and the masks; throws Error if they do not fit the camera. Hands the automatic
-// face mask to BakeOptions::on_face_mask. `index` is the photograph's in the cache.
+// face mask to PhotoContext::on_face_mask. `index` is the photograph's in the cache.
 PreparedPhoto PreparePhoto(const BakePhotograph& photograph,
                            int index,
                            const PhotoContext& context,

@@ -4,8 +4,8 @@
 
 #include "invrender/colour/colour.h"
 #include "invrender/inputs/consistency_options.h"
+#include "invrender/measure/chart_blocks.h"
 #include "invrender/measure/sharpness.h"
-#include "invrender/measure/texel_blocks.h"
 #include "invrender/select/chart_choice.h"
 
 #include <vector>

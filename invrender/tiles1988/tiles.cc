@@ -2,7 +2,9 @@
 // Part of Groundglass.
 #include "invrender/tiles1988/tiles.h"
 
+#include "invrender/photos/face_mask.h"
 #include "invrender/photos/prepared_photo.h"
+#include "invrender/photos/srgb_codes.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/formats/ignore_mask.h"
@@ -12,7 +14,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 namespace groundglass {
@@ -83,8 +84,7 @@ Image16 MakeTileLabels(const PolygonModel& model,
 ImageF ReadCoarse(const BakePhotograph& photograph, int side) {
   const Image8 fine = ReadSrgb8(photograph.image_file);
   CheckFitsCamera(photograph.image_file, fine.width, fine.height, photograph.camera);
-  std::array<float, 256> radiance;
-  for (int i = 0; i < 256; ++i) radiance[i] = LinearFromSrgb(static_cast<float>(i) / 255.0f);
+  const float* radiance = RadianceOfCodes<uint8_t>();
   ImageF coarse(fine.width / side, fine.height / side, 3);
   tbb::parallel_for(0, coarse.height, [&](int y) {
     for (int x = 0; x < coarse.width; ++x) {

@@ -64,7 +64,8 @@ TEST(MatchColour, ExposureAndWhiteBalanceAreEvenedOutAlongAChainOfPhotographs) {
   EXPECT_GE(num_compared, 2);
   BakeOptions options;
   options.match_colour = false;
-  options.smooth_seams = false;
+  options.stages.smooth_seams = [](auto&&...) {};
+  options.blend.across_seams = false;
   const std::vector<Eigen::Array3f> raw =
       MeanErrors(BakeTextures(model, photographs, options).model, wall, 4);
   EXPECT_NEAR(raw[1][0], std::log(0.6), 0.02);

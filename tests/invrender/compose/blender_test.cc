@@ -29,11 +29,16 @@ class BlendedWall : public testing::Test {
     }
     choice_.consistency.assign(blocks_.views.size(), 1);
   }
-  Blender Make(bool smooth_seams = true) const {
-    return {{wall_.charts[0], 0, texels_, wall_.photos, blocks_, choice_},
-            options_,
-            wall_.options.border_margin_px,
-            smooth_seams};
+  Blender Make() const { return Make(options_); }
+  Blender Make(const BlendOptions& options) const {
+    return {{wall_.charts[0],
+             0,
+             texels_,
+             wall_.photos,
+             wall_.options.photos.border_margin_px,
+             blocks_,
+             choice_},
+            options};
   }
   // Weights by k.
   static std::map<int, double> Weights(const Blender& blender, int x, int y) {
@@ -73,7 +78,9 @@ TEST_F(BlendedWall, WeightsChangeEvenlyAcrossASeam) {
 }
 
 TEST_F(BlendedWall, HardSeamsTakeTheBlocksOwn) {
-  const Blender blender = Make(false);
+  BlendOptions hard;
+  hard.across_seams = false;
+  const Blender blender = Make(hard);
   EXPECT_EQ(Weights(blender, kSeam - 1, kMiddle), (std::map<int, double>{{0, 1.0}}));
   EXPECT_EQ(Weights(blender, kSeam, kMiddle), (std::map<int, double>{{1, 1.0}}));
 }
@@ -104,10 +111,9 @@ TEST_F(BlendedWall, RunsEndAtSeamsBordersAndTheChartsEnd) {
     choice.best.push_back(block % 40 < 20 ? 0 : 1);
   }
   choice.consistency.assign(blocks.views.size(), 1);
-  const Blender blender({fine, 0, texels, wall_.photos, blocks, choice},
-                        options_,
-                        wall_.options.border_margin_px,
-                        true);
+  const Blender blender(
+      {fine, 0, texels, wall_.photos, wall_.options.photos.border_margin_px, blocks, choice},
+      options_);
   std::array<SurfaceObservation, Blender::kRunTexels> run;
   std::vector<int> chosen;
   blender.ChooseRow(50, chosen);

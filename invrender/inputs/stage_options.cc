@@ -1,15 +1,92 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "invrender/inputs/bake_options.h"
-
+// What each stage's options may be.
+#include "invrender/inputs/blend_options.h"
+#include "invrender/inputs/block_options.h"
+#include "invrender/inputs/chart_options.h"
+#include "invrender/inputs/colour_options.h"
+#include "invrender/inputs/consistency_options.h"
+#include "invrender/inputs/coverage_options.h"
+#include "invrender/inputs/detail_options.h"
+#include "invrender/inputs/fill_options.h"
+#include "invrender/inputs/memory_options.h"
+#include "invrender/inputs/page_options.h"
+#include "invrender/inputs/photo_options.h"
+#include "invrender/inputs/sampling_options.h"
+#include "invrender/inputs/seam_options.h"
 #include "scene/check_option.h"
-#include "scene/error.h"
 
 namespace groundglass {
+
+void ChartOptions::Check(const std::string& path) const {
+  CheckFromTo(coplanar_sine, 0, 0.1, path + "coplanar_sine");
+  CheckFromTo(coplanar_share, 0, 0.1, path + "coplanar_share");
+  CheckFromTo(level_sine, 1e-9, 0.5, path + "level_sine");
+}
+
+void PageOptions::Check(const std::string& path) const {
+  CheckAtLeast(texel_size, 0, path + "texel_size");
+  CheckFromTo(kept_share, 0, 1, path + "kept_share");
+  CheckAbove(texel_px, 0, path + "texel_px");
+  CheckFromTo(max_page_texels, 64, 32768, path + "max_page_texels");
+  CheckFromTo(gutter_texels, 1, 24, path + "gutter_texels");
+  if (bits != 8 && bits != 16) throw OptionError(path + "bits", "must be 8 or 16");
+}
+
+void MountOptions::Check(const std::string& path) const {
+  CheckFromTo(dark_code, 0, 256, path + "dark_code");
+  CheckFromTo(dark_share, 0, 1, path + "dark_share");
+  CheckFromTo(deepest_share, 0, 0.5, path + "deepest_share");
+  CheckFromTo(widening_share, 0, 0.1, path + "widening_share");
+}
+
+void BorderOptions::Check(const std::string& path) const {
+  CheckFromTo(crease_bonus_px, 0, 20, path + "crease_bonus_px");
+  CheckAtLeast(crease_depth_share, 0, path + "crease_depth_share");
+}
+
+void QualityOptions::Check(const std::string& path) const {
+  CheckFromTo(border_clear_px, 0, 20, path + "border_clear_px");
+  CheckAbove(border_ramp_px, -border_clear_px, path + "border_ramp_px");
+  CheckFromTo(least_at_border, 1e-9, 1, path + "least_at_border");
+  CheckFromTo(least_at_frame, 0, 1, path + "least_at_frame");
+  CheckFromTo(frame_ramp_share, 1e-9, 1, path + "frame_ramp_share");
+}
+
+void EarlierModelOptions::Check(const std::string& path) const {
+  CheckFromTo(same_normal_cosine, 0, 1, path + "same_normal_cosine");
+}
+
+void PhotoOptions::Check(const std::string& path) const {
+  CheckFromTo(border_margin_px, 0, 20, path + "border_margin_px");
+  CheckFromTo(frame_margin, 0, 0.4, path + "frame_margin");
+  CheckFromTo(step_inside_px, 0, 1, path + "step_inside_px");
+  mount.Check(path + "mount.");
+  borders.Check(path + "borders.");
+  quality.Check(path + "quality.");
+}
+
+void MemoryOptions::Check(const std::string& path) const {
+  CheckAtLeast(max_memory_mb, 0, path + "max_memory_mb");
+  CheckFromTo(photo_share, 0, 1, path + "photo_share");
+  CheckAtLeast(few_photos, 1, path + "few_photos");
+  CheckFromTo(max_texel_scale, 1, 1000, path + "max_texel_scale");
+  CheckFromTo(max_halvings, 0, 8, path + "max_halvings");
+  CheckAtLeast(worth_dropping, 1, path + "worth_dropping");
+  CheckAtLeast(worth_halving, 1, path + "worth_halving");
+  CheckAtLeast(mask_estimate_factor, 1, path + "mask_estimate_factor");
+}
 
 void BlockOptions::Check(const std::string& path) const {
   CheckFromTo(black, 1e-6, 0.5, path + "black");
   CheckFromTo(burnt, 0.5, 1, path + "burnt");
+  CheckAtLeast(clear_px, 0, path + "clear_px");
+}
+
+void PatchOptions::Check(const std::string& path) const {
+  CheckFromTo(max_patches, 1, 1e6, path + "max_patches");
+  CheckFromTo(max_views, 2, 1000, path + "max_views");
+  CheckAtLeast(max_coarseness, 1, path + "max_coarseness");
   CheckAtLeast(clear_px, 0, path + "clear_px");
 }
 
@@ -85,6 +162,13 @@ void SeamOptions::Check(const std::string& path) const {
   CheckAbove(max_difference, 0, path + "max_difference");
 }
 
+void SamplingOptions::Check(const std::string& path) const {
+  CheckFromTo(max_taps, 1, 64, path + "max_taps");
+  CheckFromTo(one_tap_px, 1, 2, path + "one_tap_px");
+  CheckAtLeast(max_anisotropy, 1, path + "max_anisotropy");
+  CheckFromTo(bicubic_taps, 0, 1e6, path + "bicubic_taps");
+}
+
 void BlendOptions::Check(const std::string& path) const {
   CheckAtLeast(clear_px, 0, path + "clear_px");
   CheckFromTo(ramp_start_px, -20, 20, path + "ramp_start_px");
@@ -97,6 +181,7 @@ void BlendOptions::Check(const std::string& path) const {
   CheckFromTo(good_weight, 0, 1, path + "good_weight");
   CheckAtLeast(reach_beyond_px, 0, path + "reach_beyond_px");
   CheckFromTo(farthest_reach, 1, 255, path + "farthest_reach");
+  sampling.Check(path + "sampling.");
 }
 
 void DilateOptions::Check(const std::string& path) const {
@@ -107,23 +192,16 @@ void FillOptions::Check(const std::string& path) const {
   CheckFromTo(radius_texels, 1, 100, path + "radius_texels");
 }
 
-void BakeOptions::Check() const {
-  CheckAtLeast(texel_size, 0, "texel_size");
-  CheckFromTo(max_page_texels, 64, 32768, "max_page_texels");
-  CheckFromTo(gutter_texels, 1, 24, "gutter_texels");
-  CheckFromTo(border_margin_px, 0, 20, "border_margin_px");
-  CheckFromTo(frame_margin, 0, 0.4, "frame_margin");
-  CheckAtLeast(max_memory_mb, 0, "max_memory_mb");
-  if (bits != 8 && bits != 16) throw Error("bits must be 8 or 16");
-  blocks.Check("blocks.");
-  sharpness.Check("sharpness.");
-  grain.Check("grain.");
-  colour.Check("colour.");
-  consistency.Check("consistency.");
-  seams.Check("seams.");
-  blend.Check("blend.");
-  dilate.Check("dilate.");
-  fill.Check("fill.");
+void ViewpointOptions::Check(const std::string& path) const {
+  CheckAbove(eye_level_ft, 0, path + "eye_level_ft");
+  for (const double turn : turns_deg) CheckFromTo(turn, -90, 90, path + "turns_deg");
+  for (const double distance : distances) CheckAbove(distance, 0, path + "distances");
+  CheckFromTo(least_cosine, 0, 1, path + "least_cosine");
+}
+
+void CoverageOptions::Check(const std::string& path) const {
+  CheckFromTo(least_missing_share, 0, 1, path + "least_missing_share");
+  viewpoint.Check(path + "viewpoint.");
 }
 
 }  // namespace groundglass
