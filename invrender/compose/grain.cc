@@ -236,6 +236,35 @@ void Smooth(const std::vector<std::array<float, kGrainBands>>& variances,
   });
 }
 
+// All pairs of views of one patch, by chart; and how much they differ in each band, by photographs.
+struct PairsAndDifferences {
+  std::vector<std::vector<PatchPair>> pairs;
+  std::array<std::map<PhotoPair, std::vector<float>>, kGrainBands> differences;
+};
+
+PairsAndDifferences ComparePatches(const std::vector<Patch>& patches,
+                                   const std::vector<std::vector<PatchBands>>& views,
+                                   size_t num_charts,
+                                   const GrainOptions& options) {
+  PairsAndDifferences found;
+  found.pairs.resize(num_charts);
+  for (size_t i = 0; i < patches.size(); ++i) {
+    for (size_t a = 0; a < views[i].size(); ++a) {
+      for (size_t b = a + 1; b < views[i].size(); ++b) {
+        const PatchPair& pair =
+            found.pairs[patches[i].chart].emplace_back(views[i][a], views[i][b]);
+        if (std::min(pair.first->mean, pair.second->mean) < options.dark) continue;
+        const float ratio = pair.first->mean / pair.second->mean;
+        for (int band = 0; band < kGrainBands; ++band) {
+          found.differences[band][pair.Photos()].push_back(
+              (pair.first->bands[band] - ratio * pair.second->bands[band]).square().mean());
+        }
+      }
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 Grain MeasureGrain(const std::vector<Patch>& patches,
@@ -246,30 +275,17 @@ Grain MeasureGrain(const std::vector<Patch>& patches,
   tbb::parallel_for(size_t{0}, patches.size(), [&](size_t i) {
     for (const PatchView& view : patches[i].views) views[i].push_back(SplitPatch(view));
   });
-  std::vector<std::vector<PatchPair>> pairs(num_charts);
-  std::array<std::map<PhotoPair, std::vector<float>>, kGrainBands> differences;
-  for (size_t i = 0; i < patches.size(); ++i) {
-    for (size_t a = 0; a < views[i].size(); ++a) {
-      for (size_t b = a + 1; b < views[i].size(); ++b) {
-        const PatchPair& pair = pairs[patches[i].chart].emplace_back(views[i][a], views[i][b]);
-        if (std::min(pair.first->mean, pair.second->mean) < options.dark) continue;
-        const float ratio = pair.first->mean / pair.second->mean;
-        for (int band = 0; band < kGrainBands; ++band) {
-          differences[band][pair.Photos()].push_back(
-              (pair.first->bands[band] - ratio * pair.second->bands[band]).square().mean());
-        }
-      }
-    }
-  }
+  PairsAndDifferences found = ComparePatches(patches, views, num_charts, options);
   Grain grain;
   std::vector<Agreement> agreements(num_charts);
   tbb::parallel_for(size_t{0}, num_charts, [&](size_t chart) {
-    agreements[chart] = MeasureAgreement(std::move(pairs[chart]), options);
+    agreements[chart] = MeasureAgreement(std::move(found.pairs[chart]), options);
   });
   grain.certainty = Certainty(agreements, options);
   grain.variances.resize(num_photos);
   for (int band = 0; band < kGrainBands; ++band) {
-    const std::vector<double> variances = SolveVariances(differences[band], num_photos, options);
+    const std::vector<double> variances =
+        SolveVariances(found.differences[band], num_photos, options);
     for (size_t photo = 0; photo < num_photos; ++photo) {
       grain.variances[photo][band] = variances[photo];
     }
