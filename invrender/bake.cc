@@ -15,13 +15,12 @@
 #include "invrender/plan/memory_plan.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
-#include "scene/formats/scene_folder.h"
+#include "scene/text.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <mutex>

@@ -16,7 +16,6 @@
 #include "invrender/measure/sharpness.h"
 #include "invrender/select/choose.h"
 #include "invrender/select/seams.h"
-#include "scene/image.h"
 #include "scene/polygon_model.h"
 
 #include <functional>

@@ -7,8 +7,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/photo.hpp>
 
-#include <algorithm>
-
 namespace groundglass {
 namespace {
 

@@ -4,8 +4,6 @@
 
 #include "scene/srgb.h"
 
-#include <Eigen/Dense>
-
 #include <cstddef>
 #include <cstdint>
 #include <limits>
