@@ -49,7 +49,8 @@ struct BakeStages {
   // Called if BakeOptions::fill_gaps.
   std::function<void(const FillOptions&, ChartPixels&)> fill_gaps = FillOpenTexels;
 
-  void Check(const std::string& path) const;  // throws Error naming the first that is empty
+  // Throws Error naming the first that is empty, behind `path`.
+  void Check(const std::string& path = "bake stages: ") const;
 };
 
 // The options of all stages, in the order in which they work.
