@@ -6,7 +6,7 @@
 
 namespace groundglass {
 BakeOptions BakeArguments::Options() const {
-  if (options.bits == 16 && format == "jpg") {
+  if (options.pages.bits == 16 && format == "jpg") {
     throw CLI::ValidationError("--bits",
                                "a JPEG has 8 bits; give --format png, tif or exr with --bits 16");
   }
@@ -25,19 +25,19 @@ void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::st
   const std::string group = "Texture";
   command
       ->add_option("--texel-size",
-                   arguments.options.texel_size,
+                   arguments.options.pages.texel_size,
                    "side of a texel, model's unit; 0: as fine as the photographs, face by face")
       ->capture_default_str()
       ->group(group);
   command
       ->add_option("--max-texture",
-                   arguments.options.max_page_texels,
+                   arguments.options.pages.max_page_texels,
                    "texels along a side of the largest page")
       ->capture_default_str()
       ->group(group);
   command
       ->add_option("--memory",
-                   arguments.options.max_memory_mb,
+                   arguments.options.memory.max_memory_mb,
                    "MB of memory that texturing may take; 0: no limit. Texels become larger where "
                    "it must be")
       ->capture_default_str()
@@ -62,7 +62,7 @@ void AddBakeArguments(CLI::App* command, BakeArguments& arguments, const std::st
       ->group(group);
   command
       ->add_option("--bits",
-                   arguments.options.bits,
+                   arguments.options.pages.bits,
                    "16: read photographs and write pages with 16 bits a channel (png, tif; exr)")
       ->capture_default_str()
       ->check(CLI::IsMember({8, 16}))

@@ -211,7 +211,7 @@ int RunInvrender(const InvrenderArguments& arguments) {
     stages.KeepOnly(stage, key);
   }
   stages.Write();
-  const JobObserver printer = MakeJobPrinter(arguments.common, options.max_memory_mb);
+  const JobObserver printer = MakeJobPrinter(arguments.common, options.memory.max_memory_mb);
   const BakeResult result =
       BakeAndWrite(scene, photographs, options, arguments.bake.format, out, key, stages, printer);
   EnsureTiles(scene,

@@ -78,7 +78,8 @@ MainJobOptions ReadMainJobOptions(const RunArguments& arguments) {
 
 // The job's own words, and on stdout, for a person, what it finds while the long work goes on.
 JobObserver MakeRunPrinter(const RunArguments& arguments, const Scene& scene) {
-  JobObserver printer = MakeJobPrinter(arguments.common, arguments.baking.options.max_memory_mb);
+  JobObserver printer =
+      MakeJobPrinter(arguments.common, arguments.baking.options.memory.max_memory_mb);
   if (arguments.common.json) return printer;
   printer.registered = [&](const RegisteredScene& registered) {
     std::fputs(FormatModelSummary(scene.model, arguments.registering.model_arguments).c_str(),

@@ -5,29 +5,22 @@
 #include "invrender/bake_coverage.h"
 #include "invrender/charts/charts.h"
 #include "invrender/charts/packing.h"
-#include "invrender/colour/colour.h"
 #include "invrender/compose/compose.h"
 #include "invrender/compose/dilate.h"
-#include "invrender/compose/fill.h"
-#include "invrender/compose/grain.h"
 #include "invrender/measure/patches.h"
-#include "invrender/measure/sharpness.h"
 #include "invrender/measure/texel_blocks.h"
 #include "invrender/measure/texel_size.h"
 #include "invrender/photos/earlier_model.h"
 #include "invrender/photos/prepared_photo.h"
 #include "invrender/plan/memory_plan.h"
-#include "invrender/select/choose.h"
-#include "invrender/select/seams.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
-#include "scene/formats/scene_folder.h"
+#include "scene/text.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <mutex>
@@ -75,7 +68,7 @@ void ForEachChart(const std::vector<Chart>& charts,
                   size_t max_bytes,
                   const std::function<void(int)>& work) {
   const int count = static_cast<int>(charts.size());
-  const size_t max_texels = options.max_memory_mb > 0 ? kBandTexels : max_bytes;
+  const size_t max_texels = options.memory.max_memory_mb > 0 ? kBandTexels : max_bytes;
   for (int first = 0; first < count;) {
     int end = first;
     size_t num_bytes = 0;
@@ -83,7 +76,7 @@ void ForEachChart(const std::vector<Chart>& charts,
     for (; end < count; ++end) {
       const Chart& chart = charts[end];
       if (chart.page < 0) continue;
-      num_bytes += ChartBytes(chart, blocks[end].photos.size(), options);
+      num_bytes += ChartBytes(chart, blocks[end].photos.size(), options.pages.bits);
       num_texels += static_cast<size_t>(chart.width_texels) * chart.height_texels;
       if ((num_bytes > max_bytes || num_texels > max_texels) && end > first) break;
     }
@@ -160,12 +153,12 @@ class Bake {
         options_(options),
         photographs_(std::move(photographs)),
         visibility_(model),
-        charts_(MakeCharts(model)),
+        charts_(MakeCharts(model, options.charts)),
         chart_of_face_(ChartOfFace(charts_, model.faces.size())),
-        cache_(ImageFiles(photographs_), IsLimited() ? 0 : kNoLimit, options.bits),
+        cache_(ImageFiles(photographs_), IsLimited() ? 0 : kNoLimit, options.pages.bits),
         steps_(progress, static_cast<int>(photographs_.size() + 1 + charts_.size())) {
     if (!options.as_photographed) return;
-    earlier_.emplace(*options.as_photographed, model);
+    earlier_.emplace(*options.as_photographed, model, options.earlier_model);
     result_.new_faces = earlier_->FindNewFaces();
     KeepFrom(result_.new_faces, model.faces.size(), photographs_);
   }
@@ -176,29 +169,30 @@ class Bake {
     plan_.chart_bytes = kNoLimit;
     if (IsLimited()) MakePlan();
     photos_ = Prepare({.num_halvings = plan_.mask_halvings}, &steps_);
-    ChooseTexelSizes(model_, photos_, options_, charts_);
+    ChooseTexelSizes(model_, photos_, options_.pages, charts_);
     if (IsLimited()) KeepToPlan();
   }
 
   // Each chart's place on the pages.
   void LayOut() {
-    page_sizes_ = PackCharts(charts_, options_.gutter_texels, options_.max_page_texels);
+    page_sizes_ = PackCharts(charts_, options_.pages.gutter_texels, options_.pages.max_page_texels);
   }
 
   // Settles colour on blocks, and measures what photographs differ in.
   void ComparePhotographs() {
     blocks_ = ObserveBlocks(model_, charts_, photos_, options_.blocks);
-    if (options_.judge_sharpness || options_.smooth_grain) MeasureDetail();
+    MeasureDetail();
     steps_.Tell("compared the photographs");
     neutral_ = MakeNeutralColour(blocks_, photos_.size());
     // Occluders are told from exposure even where the pages keep the photographs' own exposures.
     matched_ = options_.match_colour || options_.reject_occluders
-                   ? EstimateColour(blocks_, photos_.size(), options_.colour)
+                   ? options_.stages.estimate_colour(blocks_, photos_.size(), options_.colour)
                    : neutral_;
   }
 
   void FillPages() {
-    result_.model = MakeTexturedModel(model_, charts_, chart_of_face_, page_sizes_, options_.bits);
+    result_.model =
+        MakeTexturedModel(model_, charts_, chart_of_face_, page_sizes_, options_.pages.bits);
     result_.coverage = StartCoverage(model_, charts_, chart_of_face_);
     ForEachChart(charts_, blocks_, options_, plan_.chart_bytes, [&](int i) {
       if (charts_[i].page >= 0) TextureChart(i);
@@ -207,19 +201,24 @@ class Bake {
   }
 
   BakeResult Finish() {
-    FinishCoverage(model_, visibility_, result_.coverage);
+    FinishCoverage(model_, visibility_, options_.coverage, result_.coverage);
     return std::move(result_);
   }
 
  private:
-  bool IsLimited() const { return options_.max_memory_mb > 0; }
+  bool IsLimited() const { return options_.memory.max_memory_mb > 0; }
 
   std::vector<PreparedPhoto> Prepare(const MaskDetail& detail, Steps* steps) {
-    const PhotoSurroundings surroundings = {
-        model_, visibility_, earlier_ ? &*earlier_ : nullptr, chart_of_face_, options_, cache_};
+    const PhotoContext context = {model_,
+                                  visibility_,
+                                  earlier_ ? &*earlier_ : nullptr,
+                                  chart_of_face_,
+                                  options_.photos,
+                                  cache_,
+                                  options_.on_face_mask};
     std::vector<std::optional<PreparedPhoto>> prepared(photographs_.size());
     ForEach(static_cast<int>(photographs_.size()), plan_.num_at_once, [&](int i) {
-      prepared[i].emplace(PreparePhoto(photographs_[i], i, surroundings, detail));
+      prepared[i].emplace(PreparePhoto(photographs_[i], i, context, detail));
       if (steps) steps->Tell("read " + photographs_[i].name);
     });
     std::vector<PreparedPhoto> photos;
@@ -230,14 +229,14 @@ class Bake {
   void MakePlan() {
     const std::vector<PreparedPhoto> survey =
         Prepare({.num_halvings = kSurveyHalvings, .is_survey = true}, nullptr);
-    ChooseTexelSizes(model_, survey, options_, charts_);
-    plan_ = PlanMemory(charts_, survey, options_);
+    ChooseTexelSizes(model_, survey, options_.pages, charts_);
+    plan_ = PlanMemory(charts_, survey, options_.pages, options_.memory);
     cache_.SetMaxBytes(plan_.photo_bytes);
     cache_.SetNumDropped(plan_.num_dropped);
   }
 
   void KeepToPlan() {
-    plan_ = RevisePlan(plan_, charts_, photos_, options_);
+    plan_ = RevisePlan(plan_, charts_, photos_, options_.pages, options_.memory);
     result_.texel_scale = plan_.texel_scale;
     for (Chart& chart : charts_) {
       if (chart.texel_size > 0) chart.SetTexelSize(chart.texel_size * plan_.texel_scale);
@@ -246,23 +245,21 @@ class Bake {
   }
 
   void MeasureDetail() {
-    const std::vector<Patch> patches = SamplePatches(model_, charts_, photos_);
-    if (options_.judge_sharpness) {
-      sharpness_ = MeasureSharpness(patches, photos_.size(), options_.sharpness);
-    }
-    if (options_.smooth_grain) {
-      grain_ = MeasureGrain(patches, charts_.size(), photos_.size(), options_.grain);
-    }
+    const std::vector<Patch> patches = SamplePatches(model_, charts_, photos_, options_.patches);
+    sharpness_ = options_.stages.measure_sharpness(patches, photos_.size(), options_.sharpness);
+    grain_ = MeasureGrain(patches, charts_.size(), photos_.size(), options_.grain);
   }
 
   ChartChoice Choose(int i) const {
     const ChartBlocks& blocks = blocks_[i];
+    const BakeStages& stages = options_.stages;
     std::vector<float> consistency =
-        options_.reject_occluders ? MeasureConsistency(blocks, i, matched_, options_.consistency)
-                                  : std::vector<float>(blocks.views.size(), 1);
+        options_.reject_occluders
+            ? stages.measure_consistency(blocks, i, matched_, options_.consistency)
+            : std::vector<float>(blocks.views.size(), 1);
     if (!sharpness_.empty()) PreferSharp(blocks, sharpness_, options_.consistency, consistency);
-    ChartChoice choice = ChooseBlocks(blocks, std::move(consistency));
-    if (options_.smooth_seams) SmoothSeams(blocks, i, matched_, options_.seams, choice);
+    ChartChoice choice = stages.choose_blocks(blocks, std::move(consistency));
+    stages.smooth_seams(blocks, i, matched_, options_.seams, choice);
     return choice;
   }
 
@@ -272,17 +269,16 @@ class Bake {
     const ChartTexels texels(model_, chart);
     const ChartChoice choice = Choose(i);
     const ColourModel& printed = options_.match_colour ? matched_ : neutral_;
-    ChartPixels pixels =
-        ComposeChart({chart, i, texels, photos_, blocks_[i], choice}, printed, options_);
-    if (options_.smooth_grain) {
-      SmoothGrain(chart, i, blocks_[i], printed, grain_, options_.grain, pixels);
-    }
+    const ComposeInputs inputs = {
+        chart, i, texels, photos_, options_.photos.border_margin_px, blocks_[i], choice};
+    ChartPixels pixels = ComposeChart(inputs, printed, options_.blend, options_.pages.bits);
+    options_.stages.smooth_grain({chart, i, blocks_[i], printed, grain_}, options_.grain, pixels);
     InpaintBorders(pixels);
     CloseHoles(options_.dilate, pixels);
     CountTexels(chart, texels, pixels, result_.coverage);
     AddSources(photographs_, pixels, result_.coverage);
-    if (options_.fill_gaps) FillOpenTexels(options_.fill, pixels);
-    PlaceOnPage(chart, pixels, options_.gutter_texels, result_.model.pages[chart.page]);
+    if (options_.fill_gaps) options_.stages.fill_gaps(options_.fill, pixels);
+    PlaceOnPage(chart, pixels, options_.pages.gutter_texels, result_.model.pages[chart.page]);
   }
 
   const PolygonModel& model_;

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/inputs/bake_options.h"
+#include "invrender/bake_options.h"
 #include "invrender/inputs/bake_photograph.h"
 #include "scene/coverage.h"
 #include "scene/polygon_model.h"
@@ -15,7 +15,7 @@
 // Inverse rendering: from photographs with their cameras to a textured model. The stages, in order,
 // each on a floor of its own (a file includes its own floor and those above it here):
 //
-//   inputs/    BakePhotograph, BakeOptions
+//   inputs/    BakePhotograph, and the options of each stage
 //   charts/    MakeCharts        model                 -> faces in one plane that touch, each flat
 //              PackCharts        charts                -> pages and each chart's place on them
 //   photos/    PreparePhoto      photograph, model     -> what it shows of which face, how near to
@@ -32,7 +32,8 @@
 //   plan/      PlanMemory        charts, photographs   -> how much at once; where to stand for more
 //   tiles1988/ MakeTiles         photographs           -> Thorman's tiles, for comparison
 //
-// BakeTextures calls them. The thresholds and weights of each are in a struct of BakeOptions.
+// BakeTextures calls them. The thresholds and weights of each are in a struct of BakeOptions, and
+// BakeStages holds those that can be exchanged for others.
 namespace groundglass {
 
 struct BakeResult {

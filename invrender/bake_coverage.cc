@@ -2,8 +2,10 @@
 // Part of Groundglass.
 #include "invrender/bake_coverage.h"
 
+#include "invrender/measure/median.h"
 #include "invrender/plan/suggest_viewpoint.h"
 #include "scene/face_number.h"
+#include "scene/textured_model.h"
 
 #include <algorithm>
 
@@ -12,9 +14,11 @@ namespace {
 
 // Where the middle of what is missing of a face lies, and where to stand to see it; nothing where
 // hardly anything is. The middle was a sum over texels so far.
-void DescribeMissing(const PolygonModel& model, const Visibility& visibility, FaceCoverage& face) {
-  constexpr double kWorthTelling = 0.01;  // of a face's area
-  if (face.area - face.covered_area <= kWorthTelling * face.area) {
+void DescribeMissing(const PolygonModel& model,
+                     const Visibility& visibility,
+                     const CoverageOptions& options,
+                     FaceCoverage& face) {
+  if (face.area - face.covered_area <= options.least_missing_share * face.area) {
     face.missing.reset();
     return;
   }
@@ -29,8 +33,8 @@ void DescribeMissing(const PolygonModel& model, const Visibility& visibility, Fa
           model.points_in_world[point] / static_cast<double>(points.size());
     }
   }
-  face.missing->stand_in_world =
-      SuggestViewpoint(model, visibility, face.face, face.missing->centre_in_world);
+  face.missing->stand_in_world = SuggestViewpoint(
+      model, visibility, face.face, face.missing->centre_in_world, options.viewpoint);
 }
 
 }  // namespace
@@ -78,22 +82,20 @@ void AddSources(const std::vector<BakePhotograph>& photographs,
     FaceCoverage::Source& entry = coverage.faces[source.face].sources.emplace_back();
     entry.photograph = photographs[source.photo].name;
     entry.num_texels = source.num_texels;
-    std::vector<float>& footprints = source.footprints;
-    if (!footprints.empty()) {
-      std::nth_element(
-          footprints.begin(), footprints.begin() + footprints.size() / 2, footprints.end());
-      entry.footprint = footprints[footprints.size() / 2];
-    }
+    if (!source.footprints.empty()) entry.footprint = Median(source.footprints);
   }
 }
 
-void FinishCoverage(const PolygonModel& model, const Visibility& visibility, Coverage& coverage) {
+void FinishCoverage(const PolygonModel& model,
+                    const Visibility& visibility,
+                    const CoverageOptions& options,
+                    Coverage& coverage) {
   for (FaceCoverage& face : coverage.faces) {
     if (face.num_texels > 0) {
       face.covered_area = face.area * static_cast<double>(face.num_covered_texels) /
                           static_cast<double>(face.num_texels);
     }
-    DescribeMissing(model, visibility, face);
+    DescribeMissing(model, visibility, options, face);
     std::stable_sort(face.sources.begin(), face.sources.end(), [](const auto& a, const auto& b) {
       return a.num_texels > b.num_texels;
     });

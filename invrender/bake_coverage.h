@@ -3,8 +3,9 @@
 #pragma once
 
 #include "invrender/charts/charts.h"
-#include "invrender/compose/compose.h"
+#include "invrender/compose/chart_pixels.h"
 #include "invrender/inputs/bake_photograph.h"
+#include "invrender/inputs/coverage_options.h"
 #include "scene/coverage.h"
 #include "scene/polygon_model.h"
 #include "scene/visibility.h"
@@ -33,6 +34,9 @@ void AddSources(const std::vector<BakePhotograph>& photographs,
                 Coverage& coverage);
 
 // Areas, and where to stand for what is missing.
-void FinishCoverage(const PolygonModel& model, const Visibility& visibility, Coverage& coverage);
+void FinishCoverage(const PolygonModel& model,
+                    const Visibility& visibility,
+                    const CoverageOptions& options,
+                    Coverage& coverage);
 
 }  // namespace groundglass

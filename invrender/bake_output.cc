@@ -11,8 +11,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
-#include <algorithm>
-
 namespace groundglass {
 namespace {
 

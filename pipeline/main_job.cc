@@ -100,7 +100,7 @@ void MainJobOptions::Check() const {
   if (std::find(kPageFormats.begin(), kPageFormats.end(), page_format) == kPageFormats.end()) {
     throw OptionError(path + "page_format", "must be jpg, png, tif or exr, not " + page_format);
   }
-  if (baking.bits == 16 && page_format == "jpg") {
+  if (baking.pages.bits == 16 && page_format == "jpg") {
     throw OptionError(path + "page_format", "must be png, tif or exr with 16 bits, not jpg");
   }
   CheckFromTo(num_stills, 0, 100, path + "num_stills");

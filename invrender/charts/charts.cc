@@ -61,7 +61,7 @@ bool Touch(const PolygonModel& model, int first, int second, double tolerance) {
 }
 
 // Faces that lie in one plane, face the same way and touch: a root for each face.
-std::vector<int> MergeCoplanar(const PolygonModel& model) {
+std::vector<int> MergeCoplanar(const PolygonModel& model, const ChartOptions& options) {
   const int num_faces = static_cast<int>(model.faces.size());
   std::vector<int> root(num_faces);
   std::iota(root.begin(), root.end(), 0);
@@ -70,8 +70,7 @@ std::vector<int> MergeCoplanar(const PolygonModel& model) {
     return face;
   };
   const double size = std::max(ComputeBounds(model).Diagonal(), 1e-12);
-  const double tolerance = 1e-5 * size;
-  const double max_sine = 1e-4;
+  const double tolerance = options.coplanar_share * size;
   std::vector<FacePlane> planes(num_faces);
   // Candidates share a coarse block of normal; neighbouring blocks are missed, which only costs a
   // merge.
@@ -90,7 +89,7 @@ std::vector<int> MergeCoplanar(const PolygonModel& model) {
       for (size_t j = i + 1; j < faces.size(); ++j) {
         const FacePlane& a = planes[faces[i]];
         const FacePlane& b = planes[faces[j]];
-        if (a.normal_in_world.cross(b.normal_in_world).norm() > max_sine) continue;
+        if (a.normal_in_world.cross(b.normal_in_world).norm() > options.coplanar_sine) continue;
         if (a.normal_in_world.dot(b.normal_in_world) < 0) continue;
         if (std::abs(a.offset - b.offset) > tolerance) continue;
         const int first = find(faces[i]);
@@ -105,10 +104,10 @@ std::vector<int> MergeCoplanar(const PolygonModel& model) {
 }
 
 // Axes of the chart: upright for walls and roofs, along the longest edge for level faces.
-void SetAxes(const PolygonModel& model, Chart& chart) {
+void SetAxes(const PolygonModel& model, const ChartOptions& options, Chart& chart) {
   const Eigen::Vector3d& normal = chart.normal_in_world;
   Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(normal);
-  if (right.norm() < 0.02) {
+  if (right.norm() < options.level_sine) {
     double longest = -1;
     for (const int face : chart.faces) {
       const std::vector<int>& points = model.faces[face].points;
@@ -151,8 +150,8 @@ void Chart::SetTexelSize(double size) {
   height_texels = std::max(1, static_cast<int>(std::ceil(height / size - 1e-6)));
 }
 
-std::vector<Chart> MakeCharts(const PolygonModel& model) {
-  const std::vector<int> root = MergeCoplanar(model);
+std::vector<Chart> MakeCharts(const PolygonModel& model, const ChartOptions& options) {
+  const std::vector<int> root = MergeCoplanar(model, options);
   std::map<int, std::vector<int>> members;
   for (int face = 0; face < static_cast<int>(root.size()); ++face) {
     members[root[face]].push_back(face);
@@ -164,7 +163,7 @@ std::vector<Chart> MakeCharts(const PolygonModel& model) {
     chart.faces = faces;
     const FacePlane plane = ComputeFacePlane(model, first);
     chart.normal_in_world = plane.normal_in_world;
-    SetAxes(model, chart);
+    SetAxes(model, options, chart);
     SetExtent(model, plane.offset, chart);
   }
   return charts;
@@ -190,45 +189,48 @@ ChartTexels::ChartTexels(const PolygonModel& model, const Chart& chart)
                                chart.TexelFromWorld(model.points_in_world[points[side.end]])});
     }
   }
-  // Texels whose centre lies inside: even-odd spans of each row.
+  for (const Outline& outline : outlines_) FillInside(outline);
   for (const Outline& outline : outlines_) {
-    std::vector<double> crossings;
-    for (int y = 0; y < height(); ++y) {
-      crossings.clear();
-      const double row = y + 0.5;
-      for (const auto& [a, b] : outline.sides) {
-        if ((a.y() <= row) == (b.y() <= row)) continue;
-        crossings.push_back(a.x() + (row - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
-      }
-      std::sort(crossings.begin(), crossings.end());
-      for (size_t i = 0; i + 1 < crossings.size(); i += 2) {
-        const int first = std::max(0, static_cast<int>(std::ceil(crossings[i] - 0.5)));
-        const int last =
-            std::min(width() - 1, static_cast<int>(std::ceil(crossings[i + 1] - 0.5)) - 1);
-        for (int x = first; x <= last; ++x) {
-          *faces_.At(x, y) = outline.face;
-          *inside_.At(x, y) = 1;
-        }
+    for (const Outline::Side& side : outline.sides) FillAlong(side, outline.face);
+  }
+}
+
+void ChartTexels::FillInside(const Outline& outline) {
+  std::vector<double> crossings;
+  for (int y = 0; y < height(); ++y) {
+    crossings.clear();
+    const double row = y + 0.5;
+    for (const auto& [a, b] : outline.sides) {
+      if ((a.y() <= row) == (b.y() <= row)) continue;
+      crossings.push_back(a.x() + (row - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const int first = std::max(0, static_cast<int>(std::ceil(crossings[i] - 0.5)));
+      const int last =
+          std::min(width() - 1, static_cast<int>(std::ceil(crossings[i + 1] - 0.5)) - 1);
+      for (int x = first; x <= last; ++x) {
+        *faces_.At(x, y) = outline.face;
+        *inside_.At(x, y) = 1;
       }
     }
   }
-  // Texels that only a border crosses.
-  constexpr double kReach = 0.7072;  // half a texel's diagonal
-  for (const Outline& outline : outlines_) {
-    for (const auto& [a, b] : outline.sides) {
-      const int num_steps = std::max(1, static_cast<int>(std::ceil(2 * (b - a).norm())));
-      for (int step = 0; step <= num_steps; ++step) {
-        const Eigen::Vector2d at = a + (b - a) * step / num_steps;
-        const int cx = static_cast<int>(std::floor(at.x()));
-        const int cy = static_cast<int>(std::floor(at.y()));
-        for (int y = std::max(0, cy - 1); y <= std::min(height() - 1, cy + 1); ++y) {
-          for (int x = std::max(0, cx - 1); x <= std::min(width() - 1, cx + 1); ++x) {
-            if (*faces_.At(x, y) >= 0) continue;
-            const Eigen::Vector2d centre(x + 0.5, y + 0.5);
-            if ((NearestOnSegment(centre, a, b) - centre).norm() <= kReach) {
-              *faces_.At(x, y) = outline.face;
-            }
-          }
+}
+
+void ChartTexels::FillAlong(const Outline::Side& side, int face) {
+  constexpr double kHalfDiagonal = 0.7072;  // of a texel
+  const auto& [a, b] = side;
+  const int num_steps = std::max(1, static_cast<int>(std::ceil(2 * (b - a).norm())));
+  for (int step = 0; step <= num_steps; ++step) {
+    const Eigen::Vector2d at = a + (b - a) * step / num_steps;
+    const int cx = static_cast<int>(std::floor(at.x()));
+    const int cy = static_cast<int>(std::floor(at.y()));
+    for (int y = std::max(0, cy - 1); y <= std::min(height() - 1, cy + 1); ++y) {
+      for (int x = std::max(0, cx - 1); x <= std::min(width() - 1, cx + 1); ++x) {
+        if (*faces_.At(x, y) >= 0) continue;
+        const Eigen::Vector2d centre(x + 0.5, y + 0.5);
+        if ((NearestOnSegment(centre, a, b) - centre).norm() <= kHalfDiagonal) {
+          *faces_.At(x, y) = face;
         }
       }
     }

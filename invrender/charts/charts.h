@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "invrender/inputs/chart_options.h"
 #include "scene/image.h"
 #include "scene/polygon_model.h"
 
@@ -44,7 +45,7 @@ struct Chart {
 };
 
 // Charts for all faces of the model, in order of their first faces; texel sizes are not yet set.
-std::vector<Chart> MakeCharts(const PolygonModel& model);
+std::vector<Chart> MakeCharts(const PolygonModel& model, const ChartOptions& options = {});
 
 // chart_of_face[face] is the chart's index.
 std::vector<int> ChartOfFace(const std::vector<Chart>& charts, size_t num_faces);
@@ -73,6 +74,11 @@ class ChartTexels {
     int face = -1;
     std::vector<Side> sides;  // around the face and its holes; chart coordinates, texels
   };
+  // Texels whose centre lies inside: even-odd spans of each row.
+  void FillInside(const Outline& outline);
+  // Texels without a face yet that only a border crosses.
+  void FillAlong(const Outline::Side& side, int face);
+
   std::vector<Outline> outlines_;
   Raster<int32_t> faces_;
   Raster<uint8_t> inside_;

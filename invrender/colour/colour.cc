@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "invrender/colour/colour.h"
 
+#include "invrender/measure/median.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,35 +12,9 @@
 namespace groundglass {
 namespace {
 
-// The smallest value with half of the weight at or below it.
-float WeightedMedian(std::vector<std::pair<float, float>>& value_and_weight) {
-  std::sort(value_and_weight.begin(), value_and_weight.end());
-  double total = 0;
-  for (const auto& [value, weight] : value_and_weight) total += weight;
-  double sum = 0;
-  for (const auto& [value, weight] : value_and_weight) {
-    sum += weight;
-    if (sum >= total / 2) return value;
-  }
-  return 0;
-}
-
-// The same where all weigh the same.
-float LowerMedian(std::vector<float>& values) {
-  const size_t middle = (values.size() - 1) / 2;
-  std::nth_element(values.begin(), values.begin() + middle, values.end());
-  return values[middle];
-}
-
-float Median(std::vector<float>& values) {
-  const size_t middle = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + middle, values.end());
-  return values[middle];
-}
-
 // Every how manieth block to look at, so that about `enough` are, and not always the same columns.
 int StepThrough(const ChartBlocks& blocks, int enough) {
-  const int step = std::max(1, blocks.NumCells() / enough);
+  const int step = std::max(1, blocks.NumBlocks() / enough);
   return step > 1 && blocks.width % step == 0 ? step + 1 : step;
 }
 
@@ -53,9 +29,14 @@ struct Pair {
   Eigen::Array3f difference = Eigen::Array3f::Zero();  // median of log radiance, first - second
 
   // The two views of one of the blocks.
-  std::pair<const CellView*, const CellView*> Views(size_t i) const {
-    const CellView* views = chart->ViewsOf(static_cast<int>(blocks[i]));
+  std::pair<const BlockView*, const BlockView*> Views(size_t i) const {
+    const BlockView* views = chart->ViewsOf(static_cast<int>(blocks[i]));
     return {views + first_k, views + second_k};
+  }
+  // Log radiance, first - second.
+  float DifferenceAt(size_t i, int channel) const {
+    const auto [a, b] = Views(i);
+    return a->log_radiance[channel] - b->log_radiance[channel];
   }
 };
 
@@ -63,11 +44,11 @@ struct Pair {
 // are sought in.
 template <typename Work>
 void ForEachUsable(const ChartBlocks& chart, const ColourOptions& options, const Work& work) {
-  if (chart.NumCells() < options.fewest_shared) return;
+  if (chart.NumBlocks() < options.fewest_shared) return;
   std::vector<size_t> usable;
-  for (int block = 0; block < chart.NumCells();
+  for (int block = 0; block < chart.NumBlocks();
        block += StepThrough(chart, options.enough_for_pairs)) {
-    const CellView* views = chart.ViewsOf(block);
+    const BlockView* views = chart.ViewsOf(block);
     usable.clear();
     for (size_t k = 0; k < chart.photos.size(); ++k) {
       if (views[k].is_usable) usable.push_back(k);
@@ -76,110 +57,176 @@ void ForEachUsable(const ChartBlocks& chart, const ColourOptions& options, const
   }
 }
 
-std::vector<Pair> FindPairs(const std::vector<ChartBlocks>& blocks, const ColourOptions& options) {
-  // Of too many pairs every so manieth.
+// Every how manieth pair of photographs is looked at, so that no more blocks of pairs than
+// most_shared are.
+size_t StrideOfPairs(const std::vector<ChartBlocks>& blocks, const ColourOptions& options) {
   size_t num_shared = 0;
   for (const ChartBlocks& chart : blocks) {
     ForEachUsable(chart, options, [&](int, const std::vector<size_t>& usable) {
       num_shared += usable.size() * (usable.size() - 1) / 2;
     });
   }
-  const size_t stride = 1 + num_shared / static_cast<size_t>(options.most_shared);
+  return 1 + num_shared / static_cast<size_t>(options.most_shared);
+}
+
+// [a * photos + b]: the blocks of a chart that its photographs a < b both show well.
+std::vector<std::vector<uint32_t>> FindShared(const ChartBlocks& chart,
+                                              size_t stride,
+                                              const ColourOptions& options) {
+  const size_t num_photos = chart.photos.size();
+  // Neighbours always, and others as two primes scatter them.
+  const auto is_wanted = [&](size_t a, size_t b) {
+    return b == a + 1 || (a * 7919 + b * 104729) % stride == 0;
+  };
+  std::vector<std::vector<uint32_t>> shared(num_photos * num_photos);
+  ForEachUsable(chart, options, [&](int block, const std::vector<size_t>& usable) {
+    for (size_t i = 0; i < usable.size(); ++i) {
+      for (size_t j = i + 1; j < usable.size(); ++j) {
+        if (!is_wanted(usable[i], usable[j])) continue;
+        shared[usable[i] * num_photos + usable[j]].push_back(static_cast<uint32_t>(block));
+      }
+    }
+  });
+  return shared;
+}
+
+// The pair of a chart's photographs a and b, with some of the blocks that they share.
+Pair MakePair(const ChartBlocks& chart,
+              size_t a,
+              size_t b,
+              const std::vector<uint32_t>& shared,
+              const ColourOptions& options) {
+  Pair pair;
+  pair.chart = &chart;
+  pair.first_k = static_cast<uint32_t>(a);
+  pair.second_k = static_cast<uint32_t>(b);
+  pair.first = chart.photos[a];
+  pair.second = chart.photos[b];
+  const size_t count = std::min(shared.size(), static_cast<size_t>(options.enough_of_pair));
+  pair.blocks.reserve(count);
+  for (size_t i = 0; i < count; ++i) pair.blocks.push_back(shared[i * shared.size() / count]);
+  return pair;
+}
+
+std::vector<Pair> FindPairs(const std::vector<ChartBlocks>& blocks, const ColourOptions& options) {
+  const size_t stride = StrideOfPairs(blocks, options);
   std::vector<Pair> pairs;
   for (const ChartBlocks& chart : blocks) {
-    if (chart.NumCells() < options.fewest_shared) continue;
+    if (chart.NumBlocks() < options.fewest_shared) continue;
     const size_t num_photos = chart.photos.size();
-    const auto is_wanted = [&](size_t a, size_t b) {
-      return b == a + 1 || (a * 7919 + b * 104729) % stride == 0;
-    };
-    std::vector<std::vector<uint32_t>> shared(num_photos * num_photos);  // blocks
-    ForEachUsable(chart, options, [&](int block, const std::vector<size_t>& usable) {
-      for (size_t i = 0; i < usable.size(); ++i) {
-        for (size_t j = i + 1; j < usable.size(); ++j) {
-          if (!is_wanted(usable[i], usable[j])) continue;
-          shared[usable[i] * num_photos + usable[j]].push_back(static_cast<uint32_t>(block));
-        }
-      }
-    });
+    const std::vector<std::vector<uint32_t>> shared = FindShared(chart, stride, options);
     for (size_t a = 0; a < num_photos; ++a) {
       for (size_t b = a + 1; b < num_photos; ++b) {
-        std::vector<uint32_t>& both = shared[a * num_photos + b];
+        const std::vector<uint32_t>& both = shared[a * num_photos + b];
         if (static_cast<int>(both.size()) < options.fewest_shared) continue;
-        Pair& pair = pairs.emplace_back();
-        pair.chart = &chart;
-        pair.first_k = static_cast<uint32_t>(a);
-        pair.second_k = static_cast<uint32_t>(b);
-        pair.first = chart.photos[a];
-        pair.second = chart.photos[b];
-        const size_t count = std::min(both.size(), static_cast<size_t>(options.enough_of_pair));
-        pair.blocks.reserve(count);
-        for (size_t i = 0; i < count; ++i) pair.blocks.push_back(both[i * both.size() / count]);
+        pairs.push_back(MakePair(chart, a, b, both, options));
       }
     }
   }
   return pairs;
 }
 
-// Vignetting from how differences change ACROSS a chart, so that neither exposure nor the light on
-// the chart as a whole matters.
+// Normal equations, one unknown for each photograph.
+struct NormalEquations {
+  Eigen::MatrixXd normal;
+  Eigen::VectorXd right;
+
+  explicit NormalEquations(Eigen::Index num_photos)
+      : normal(Eigen::MatrixXd::Zero(num_photos, num_photos)),
+        right(Eigen::VectorXd::Zero(num_photos)) {}
+
+  // Pulls each unknown to `mean`.
+  void AddPrior(double weight, double mean) {
+    normal.diagonal().array() += weight;
+    right.array() += weight * mean;
+  }
+  Eigen::VectorXd Solve() const { return normal.ldlt().solve(right); }
+};
+
+// How strongly each block of a pair speaks for its vignetting: what is left of the difference by
+// the vignetting so far, less its median, is weighed as under Student's t.
+std::vector<double> WeighBlocks(const Pair& pair,
+                                int channel,
+                                const Eigen::VectorXd& vignetting,
+                                double scale) {
+  std::vector<float> residuals;
+  for (size_t i = 0; i < pair.blocks.size(); ++i) {
+    const auto [a, b] = pair.Views(i);
+    residuals.push_back(static_cast<float>(pair.DifferenceAt(i, channel) -
+                                           vignetting[pair.first] * a->radius_squared +
+                                           vignetting[pair.second] * b->radius_squared));
+  }
+  std::vector<float> ordered = residuals;
+  const float middle = Median(ordered);
+  std::vector<double> weights;
+  for (const float residual : residuals) {
+    const double e = (residual - middle) / scale;
+    weights.push_back(1 / ((1 + e * e) * (1 + e * e)));
+  }
+  return weights;
+}
+
+// What one pair says of the vignetting of its two photographs. Means are taken off, so that neither
+// exposure nor the light on the chart as a whole matters.
+void AddVignetting(const Pair& pair,
+                   int channel,
+                   const std::vector<double>& weights,
+                   NormalEquations& equations) {
+  double sum_weight = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (size_t i = 0; i < pair.blocks.size(); ++i) {
+    const auto [first, second] = pair.Views(i);
+    const Eigen::Vector3d row(
+        first->radius_squared, -second->radius_squared, pair.DifferenceAt(i, channel));
+    sum_weight += weights[i];
+    mean += weights[i] * row;
+    scatter += weights[i] * row * row.transpose();
+  }
+  if (sum_weight < 1) return;
+  scatter -= mean * mean.transpose() / sum_weight;
+  const int index[2] = {pair.first, pair.second};
+  for (int i = 0; i < 2; ++i) {
+    equations.right[index[i]] += scatter(i, 2);
+    for (int j = 0; j < 2; ++j) equations.normal(index[i], index[j]) += scatter(i, j);
+  }
+}
+
+// Vignetting from how differences change ACROSS a chart, by iteratively reweighted least squares.
 void SolveVignetting(const std::vector<Pair>& pairs,
                      int channel,
                      const ColourOptions& options,
                      std::vector<ColourModel::Photo>& photos) {
-  const Eigen::Index num_photos = static_cast<Eigen::Index>(photos.size());
-  Eigen::VectorXd solution = Eigen::VectorXd::Zero(num_photos);
+  const auto num_photos = static_cast<Eigen::Index>(photos.size());
+  Eigen::VectorXd vignetting = Eigen::VectorXd::Zero(num_photos);
   for (int round = 0; round < options.vignetting_rounds; ++round) {
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(num_photos, num_photos);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(num_photos);
-    std::vector<float> residuals;
-    std::vector<float> ordered;
+    NormalEquations equations(num_photos);
     for (const Pair& pair : pairs) {
-      const auto value = [&](size_t i) {
-        const auto [a, b] = pair.Views(i);
-        return a->log_radiance[channel] - b->log_radiance[channel];
-      };
-      const auto residual = [&](size_t i) {
-        const auto [a, b] = pair.Views(i);
-        return static_cast<float>(value(i) - solution[pair.first] * a->radius_squared +
-                                  solution[pair.second] * b->radius_squared);
-      };
-      residuals.clear();
-      for (size_t i = 0; i < pair.blocks.size(); ++i) residuals.push_back(residual(i));
-      ordered = residuals;
-      const float middle = Median(ordered);
-      // Weighted means, to eliminate the chart's own difference.
-      double sum_weight = 0;
-      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-      Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-      for (size_t i = 0; i < pair.blocks.size(); ++i) {
-        const double e = (residuals[i] - middle) / options.vignetting_scale;
-        const double weight = 1 / ((1 + e * e) * (1 + e * e));
-        const auto [first, second] = pair.Views(i);
-        const Eigen::Vector3d row(first->radius_squared, -second->radius_squared, value(i));
-        sum_weight += weight;
-        mean += weight * row;
-        scatter += weight * row * row.transpose();
-      }
-      if (sum_weight < 1) continue;
-      scatter -= mean * mean.transpose() / sum_weight;
-      const int index[2] = {pair.first, pair.second};
-      for (int i = 0; i < 2; ++i) {
-        right[index[i]] += scatter(i, 2);
-        for (int j = 0; j < 2; ++j) normal(index[i], index[j]) += scatter(i, j);
-      }
+      const std::vector<double> weights =
+          WeighBlocks(pair, channel, vignetting, options.vignetting_scale);
+      AddVignetting(pair, channel, weights, equations);
     }
     // Lenses darken corners by some tenths; photographs of one set do so alike.
-    const double prior = options.vignetting_prior;
-    const double common = num_photos > 0 ? solution.mean() : 0;
-    for (Eigen::Index photo = 0; photo < num_photos; ++photo) {
-      normal(photo, photo) += prior;
-      right[photo] += prior * common;
-    }
-    solution = normal.ldlt().solve(right);
+    equations.AddPrior(options.vignetting_prior, num_photos > 0 ? vignetting.mean() : 0);
+    vignetting = equations.Solve();
   }
   for (Eigen::Index photo = 0; photo < num_photos; ++photo) {
-    photos[photo].vignetting[channel] = static_cast<float>(solution[photo]);
+    photos[photo].vignetting[channel] = static_cast<float>(vignetting[photo]);
   }
+}
+
+// What a pair differs by in the median over its blocks, without vignetting.
+float MedianDifference(const Pair& pair,
+                       int channel,
+                       const std::vector<ColourModel::Photo>& photos) {
+  std::vector<float> differences;
+  for (size_t i = 0; i < pair.blocks.size(); ++i) {
+    const auto [a, b] = pair.Views(i);
+    differences.push_back(pair.DifferenceAt(i, channel) -
+                          photos[pair.first].vignetting[channel] * a->radius_squared +
+                          photos[pair.second].vignetting[channel] * b->radius_squared);
+  }
+  return Median(differences);
 }
 
 // One gain for each photograph. A chart gives one difference for each pair that shows it, however
@@ -188,42 +235,66 @@ void SolveGains(std::vector<Pair>& pairs,
                 int channel,
                 const ColourOptions& options,
                 std::vector<ColourModel::Photo>& photos) {
-  const Eigen::Index num_photos = static_cast<Eigen::Index>(photos.size());
-  std::vector<float> differences;
-  for (Pair& pair : pairs) {
-    differences.clear();
-    for (size_t i = 0; i < pair.blocks.size(); ++i) {
-      const auto [a, b] = pair.Views(i);
-      differences.push_back(a->log_radiance[channel] - b->log_radiance[channel] -
-                            photos[pair.first].vignetting[channel] * a->radius_squared +
-                            photos[pair.second].vignetting[channel] * b->radius_squared);
-    }
-    pair.difference[channel] = Median(differences);
-  }
-  Eigen::VectorXd solution = Eigen::VectorXd::Zero(num_photos);
+  const auto num_photos = static_cast<Eigen::Index>(photos.size());
+  for (Pair& pair : pairs) pair.difference[channel] = MedianDifference(pair, channel, photos);
+  Eigen::VectorXd gains = Eigen::VectorXd::Zero(num_photos);
   for (const double scale : options.gain_scales) {
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(num_photos, num_photos);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(num_photos);
+    NormalEquations equations(num_photos);
     for (const Pair& pair : pairs) {
       const double value = pair.difference[channel];
-      const double e = (value - solution[pair.first] + solution[pair.second]) / scale;
+      const double e = (value - gains[pair.first] + gains[pair.second]) / scale;
       const double count = static_cast<double>(pair.blocks.size());
       const double weight = count / (count + options.many_blocks) / (1 + e * e);
-      normal(pair.first, pair.first) += weight;
-      normal(pair.second, pair.second) += weight;
-      normal(pair.first, pair.second) -= weight;
-      normal(pair.second, pair.first) -= weight;
-      right[pair.first] += weight * value;
-      right[pair.second] -= weight * value;
+      equations.normal(pair.first, pair.first) += weight;
+      equations.normal(pair.second, pair.second) += weight;
+      equations.normal(pair.first, pair.second) -= weight;
+      equations.normal(pair.second, pair.first) -= weight;
+      equations.right[pair.first] += weight * value;
+      equations.right[pair.second] -= weight * value;
     }
     // A weak prior anchors the mean, and photographs that share nothing.
-    for (Eigen::Index photo = 0; photo < num_photos; ++photo)
-      normal(photo, photo) += options.gain_prior;
-    solution = normal.ldlt().solve(right);
+    equations.AddPrior(options.gain_prior, 0);
+    gains = equations.Solve();
   }
   for (Eigen::Index photo = 0; photo < num_photos; ++photo) {
-    photos[photo].log_gain[channel] = static_cast<float>(solution[photo]);
+    photos[photo].log_gain[channel] = static_cast<float>(gains[photo]);
   }
+}
+
+// How much a photograph says of a wall's own colour: the more, the more even its light.
+double EvennessWeight(const ColourModel::Photo& photo, const ColourOptions& options) {
+  const double nonuniformity = photo.nonuniformity;
+  return 1 / (options.even_light * options.even_light + nonuniformity * nonuniformity);
+}
+
+// [k]: by how much each photograph is brighter, in one channel, than the blocks' weighted medians.
+std::vector<std::vector<float>> FindFaceResiduals(const ChartBlocks& grid,
+                                                  int chart,
+                                                  int channel,
+                                                  const ColourOptions& options,
+                                                  const ColourModel& colour) {
+  std::vector<std::vector<float>> residuals(grid.photos.size());
+  std::vector<std::pair<float, float>> value_and_weight;
+  std::vector<size_t> usable;
+  const int step = StepThrough(grid, options.enough_for_light);
+  for (int block = 0; block < grid.NumBlocks(); block += step) {
+    const BlockView* views = grid.ViewsOf(block);
+    const auto value = [&](size_t k) {
+      return colour.Corrected(grid.photos[k], chart, static_cast<int>(k), views[k])[channel];
+    };
+    usable.clear();
+    value_and_weight.clear();
+    for (size_t k = 0; k < grid.photos.size(); ++k) {
+      if (!views[k].is_usable) continue;
+      usable.push_back(k);
+      const double weight = EvennessWeight(colour.photos[grid.photos[k]], options);
+      value_and_weight.emplace_back(value(k), static_cast<float>(weight));
+    }
+    if (usable.size() < 2) continue;
+    const float reference = WeightedMedian(value_and_weight);
+    for (const size_t k : usable) residuals[k].push_back(value(k) - reference);
+  }
+  return residuals;
 }
 
 // One round of face gains around the blocks' weighted medians.
@@ -231,44 +302,18 @@ void SolveFaceGains(const std::vector<ChartBlocks>& blocks,
                     const ColourOptions& options,
                     ColourModel& colour) {
   tbb::parallel_for(size_t{0}, blocks.size(), [&](size_t chart) {
-    const ChartBlocks& grid = blocks[chart];
-    std::vector<Eigen::Array3f> shift(grid.photos.size(), Eigen::Array3f::Zero());
-    std::vector<std::pair<float, float>> sorted;
-    std::vector<double> count(grid.photos.size(), 0);
-    const int step = StepThrough(grid, options.enough_for_light);
+    std::vector<Eigen::Array3f> shift(blocks[chart].photos.size(), Eigen::Array3f::Zero());
     for (int channel = 0; channel < 3; ++channel) {
-      std::vector<std::vector<float>> residuals(grid.photos.size());
-      for (int block = 0; block < grid.NumCells(); block += step) {
-        const CellView* views = grid.ViewsOf(block);
-        sorted.clear();
-        for (size_t k = 0; k < grid.photos.size(); ++k) {
-          if (!views[k].is_usable) continue;
-          const int photo = grid.photos[k];
-          const double nonuniformity = colour.photos[photo].nonuniformity;
-          const double weight =
-              1 / (options.even_light * options.even_light + nonuniformity * nonuniformity);
-          sorted.emplace_back(
-              colour.Corrected(
-                  photo, static_cast<int>(chart), static_cast<int>(k), views[k])[channel],
-              static_cast<float>(weight));
-        }
-        if (sorted.size() < 2) continue;
-        const float reference = WeightedMedian(sorted);
-        for (size_t k = 0; k < grid.photos.size(); ++k) {
-          if (!views[k].is_usable) continue;
-          const float value = colour.Corrected(
-              grid.photos[k], static_cast<int>(chart), static_cast<int>(k), views[k])[channel];
-          residuals[k].push_back(value - reference);
-        }
-      }
-      for (size_t k = 0; k < grid.photos.size(); ++k) {
-        count[k] = static_cast<double>(residuals[k].size());
+      std::vector<std::vector<float>> residuals =
+          FindFaceResiduals(blocks[chart], static_cast<int>(chart), channel, options, colour);
+      for (size_t k = 0; k < residuals.size(); ++k) {
         if (residuals[k].empty()) continue;
-        shift[k][channel] = LowerMedian(residuals[k]) *
-                            static_cast<float>(count[k] / (count[k] + options.few_blocks));
+        const auto count = static_cast<double>(residuals[k].size());
+        shift[k][channel] =
+            LowerMedian(residuals[k]) * static_cast<float>(count / (count + options.few_blocks));
       }
     }
-    for (size_t k = 0; k < grid.photos.size(); ++k) colour.face_gains[chart][k] += shift[k];
+    for (size_t k = 0; k < shift.size(); ++k) colour.face_gains[chart][k] += shift[k];
   });
 }
 
@@ -279,7 +324,7 @@ void JudgeUnevenness(const std::vector<ChartBlocks>& blocks,
   std::vector<double> squares(colour.photos.size(), 0);
   std::vector<double> weights(colour.photos.size(), 1e-9);
   for (size_t chart = 0; chart < blocks.size(); ++chart) {
-    const double weight = std::sqrt(static_cast<double>(blocks[chart].NumCells()));
+    const double weight = std::sqrt(static_cast<double>(blocks[chart].NumBlocks()));
     for (size_t k = 0; k < blocks[chart].photos.size(); ++k) {
       const double gain =
           std::min(options.most_uneven, std::abs<double>(colour.face_gains[chart][k].mean()));
@@ -297,9 +342,7 @@ void AnchorOnMean(const ColourOptions& options, ColourModel& colour) {
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   float sum_weight = 0;
   for (const ColourModel::Photo& photo : colour.photos) {
-    const double nonuniformity = photo.nonuniformity;
-    const auto weight = static_cast<float>(
-        1 / (options.even_light * options.even_light + nonuniformity * nonuniformity));
+    const auto weight = static_cast<float>(EvennessWeight(photo, options));
     // Vignetting darkens the outer parts only: what counts is the frame's middle.
     sum += weight * photo.log_gain;
     sum_weight += weight;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "invrender/inputs/colour_options.h"
-#include "invrender/measure/texel_blocks.h"
+#include "invrender/measure/chart_blocks.h"
 
 #include <Eigen/Dense>
 
@@ -32,7 +32,7 @@ struct ColourModel {
         .exp();
   }
   // The logarithm of a block's colour, corrected.
-  Eigen::Array3f Corrected(int photo, int chart, int k, const CellView& view) const {
+  Eigen::Array3f Corrected(int photo, int chart, int k, const BlockView& view) const {
     const Photo& p = photos[photo];
     return view.log_radiance - p.log_gain - p.vignetting * view.radius_squared -
            face_gains[chart][k];

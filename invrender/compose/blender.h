@@ -7,9 +7,8 @@
 
 #include <Eigen/Dense>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace groundglass {
@@ -19,231 +18,72 @@ struct Contribution {
   int k = -1;
   double weight = 0;
   bool is_seen = false;
-  SurfaceObservation sighting;
+  SurfaceObservation observation;
 };
 
 // The four blocks around a texel and their bilinear weights; the texel's own block alone where
 // seams are hard.
-struct CellBlend {
+struct BlockWeights {
   int blocks[4];
   double weights[4];
 
-  CellBlend(int x, int y, const ChartBlocks& grid, bool is_smooth) {
-    if (!is_smooth) {
-      std::fill_n(blocks, 4, y / kCellTexels * grid.width + x / kCellTexels);
-      std::fill_n(weights, 4, 0.25);
-      return;
-    }
-    const double cx = std::clamp((x + 0.5) / kCellTexels - 0.5, 0.0, grid.width - 1.0);
-    const double cy = std::clamp((y + 0.5) / kCellTexels - 0.5, 0.0, grid.height - 1.0);
-    const int x0 = static_cast<int>(cx);
-    const int y0 = static_cast<int>(cy);
-    const int x1 = std::min(x0 + 1, grid.width - 1);
-    const int y1 = std::min(y0 + 1, grid.height - 1);
-    const double tx = cx - x0;
-    const double ty = cy - y0;
-    blocks[0] = y0 * grid.width + x0;
-    blocks[1] = y0 * grid.width + x1;
-    blocks[2] = y1 * grid.width + x0;
-    blocks[3] = y1 * grid.width + x1;
-    weights[0] = (1 - tx) * (1 - ty);
-    weights[1] = tx * (1 - ty);
-    weights[2] = (1 - tx) * ty;
-    weights[3] = tx * ty;
-  }
+  BlockWeights(int x, int y, const ChartBlocks& grid, bool is_smooth);
 };
 
 // Decides which photographs a texel is mixed of, and finds their places.
 class Blender {
  public:
-  // border_margin_px and smooth_seams: those of BakeOptions.
-  Blender(const ComposeInputs& inputs,
-          const BlendOptions& options,
-          double border_margin_px,
-          bool smooth_seams)
-      : chart_(inputs.chart),
-        texels_(inputs.texels),
-        photos_(inputs.photos),
-        cells_(inputs.blocks),
-        choice_(inputs.choice),
-        options_(options),
-        border_margin_px_(border_margin_px),
-        smooth_seams_(smooth_seams) {
-    for (const int photo : cells_.photos) {
-      views_.push_back(photos_[photo].View(chart_, inputs.chart_index));
-    }
-  }
+  Blender(const ComposeInputs& inputs, const BlendOptions& options);
 
   // The photograph (its k) that all blocks around a texel chose; -1 if they differ.
-  int ChosenByAll(int x, int y) const {
-    const CellBlend blend(x, y, cells_, smooth_seams_);
-    const int k = choice_.best[blend.blocks[0]];
-    for (int corner = 1; corner < 4; ++corner) {
-      if (choice_.best[blend.blocks[corner]] != k) return -1;
-    }
-    return k;
-  }
+  int ChosenByAll(int x, int y) const;
 
   // Whether a photograph shows the texel clear of borders.
-  bool SeesClear(int k, int x, int y, SurfaceObservation& sighting) const {
-    const auto seen = photos_[cells_.photos[k]].Observe(
-        views_[k], chart_.texel_size * texels_.PointAt(x, y), texels_.FaceAt(x, y));
-    if (!seen || seen->border_px < border_margin_px_ + options_.clear_px) return false;
-    sighting = *seen;
-    return true;
-  }
+  bool SeesClear(int k, int x, int y, SurfaceObservation& observation) const;
 
   // ChosenByAll for the texels of a row that have a face; -1 for the others.
-  void ChooseRow(int y, std::vector<int>& chosen) const {
-    chosen.assign(texels_.width(), -1);
-    // The blocks around change in the middle of a block only, where seams are hard at its start.
-    int k = -1;
-    for (int x = 0; x < texels_.width(); ++x) {
-      const int in_cell = x % kCellTexels;
-      if (x == 0 || in_cell == 0 || in_cell == kCellTexels / 2) k = ChosenByAll(x, y);
-      if (texels_.FaceAt(x, y) >= 0) chosen[x] = k;
-    }
-  }
+  void ChooseRow(int y, std::vector<int>& chosen) const;
 
   // Texels of a row that one photograph shows so far from any border that only the first and the
   // last need to be sought in its mask: what lies between is nearer to one of them than they are
-  // to a border. Returns how many; 0 if the row has to be gone through texel by texel. Sightings
+  // to a border. Returns how many; 0 if the row has to be gone through texel by texel. Observations
   // are those of the texels' centres.
   static constexpr int kRunTexels = 8;
   int GatherRun(int x,
                 int y,
                 const std::vector<int>& chosen,
-                std::array<SurfaceObservation, kRunTexels>& run) const {
-    const int last = x + kRunTexels - 1;
-    if (last >= texels_.width()) return 0;
-    const int k = chosen[x];
-    // Masks painted by hand may part faces of one plane without a border.
-    if (k < 0 || photos_[cells_.photos[k]].IsHandPainted()) return 0;
-    for (int i = x; i <= last; ++i) {
-      if (!texels_.IsCentreInside(i, y) || texels_.FaceAt(i, y) != texels_.FaceAt(x, y) ||
-          chosen[i] != k) {
-        return 0;
-      }
-    }
-    SurfaceObservation& first = run.front();
-    if (!SeesClear(k, x, y, first) || !SeesClear(k, last, y, run.back())) return 0;
-    const double half_length = (run.back().image_px - first.image_px).norm() / 2;
-    if (std::min(first.border_px, run.back().border_px) <
-        border_margin_px_ + options_.clear_px + half_length) {
-      return 0;
-    }
-    for (int i = 1; i < kRunTexels - 1; ++i) {
-      const double t = static_cast<double>(i) / (kRunTexels - 1);
-      run[i] = first;  // no borders near, whose distances would matter
-      run[i].px_from_unit = (1 - t) * first.px_from_unit + t * run.back().px_from_unit;
-      run[i].image_px = photos_[cells_.photos[k]].Locate(
-          views_[k], chart_.texel_size * Eigen::Vector2d(x + i + 0.5, y + 0.5));
-    }
-    return kRunTexels;
-  }
+                std::array<SurfaceObservation, kRunTexels>& run) const;
 
   // The photographs of one texel with weights that sum to 1; empty if none shows it.
-  void Gather(int x, int y, std::vector<Contribution>& ingredients) const {
-    ingredients.clear();
-    const Eigen::Vector2d plane_point = chart_.texel_size * texels_.PointAt(x, y);
-    const int face = texels_.FaceAt(x, y);
-    const CellBlend blend(x, y, cells_, smooth_seams_);
-    double chosen = 0;
-    for (int corner = 0; corner < 4; ++corner) {
-      const int k = choice_.best[blend.blocks[corner]];
-      if (k < 0 || blend.weights[corner] <= 0) continue;
-      Contribution& ingredient = Find(k, plane_point, face, ingredients);
-      const double weight = blend.weights[corner] * BorderWeight(ingredient);
-      ingredient.weight += weight;
-      chosen += weight;
-    }
-    if (chosen < options_.enough_chosen) AddOthers(plane_point, face, blend, chosen, ingredients);
-    if (ingredients.size() > 1 || chosen < options_.enough_chosen) {
-      double largest = 0;
-      for (const Contribution& i : ingredients) largest = std::max(largest, i.weight);
-      std::erase_if(ingredients, [&](const Contribution& i) {
-        return i.weight <= 0 || i.weight < options_.negligible * largest;
-      });
-    }
-    double sum = 0;
-    for (const Contribution& i : ingredients) sum += i.weight;
-    for (Contribution& i : ingredients) i.weight /= sum;
-  }
+  void Gather(int x, int y, std::vector<Contribution>& contributions) const;
 
-  bool IsGood(const std::vector<Contribution>& ingredients) const {
-    return std::any_of(ingredients.begin(), ingredients.end(), [&](const Contribution& i) {
-      return i.weight > options_.good_weight && i.sighting.border_px >= border_margin_px_;
-    });
-  }
+  bool IsGood(const std::vector<Contribution>& contributions) const;
 
   // How many texels lie between a border and the first clean pixel of this photograph.
-  uint8_t ReachFromBorder(const SurfaceObservation& sighting) const {
-    const double det = std::abs(sighting.px_from_unit.determinant());
-    const double long_side = det > 0 ? sighting.px_from_unit.norm() / det : 0;  // unit for one px
-    const double reach =
-        1 + (border_margin_px_ + options_.reach_beyond_px) * long_side / chart_.texel_size;
-    return static_cast<uint8_t>(std::min<double>(options_.farthest_reach, std::ceil(reach)));
-  }
+  uint8_t ReachFromBorder(const SurfaceObservation& observation) const;
 
  private:
   Contribution& Find(int k,
                      const Eigen::Vector2d& plane_point,
                      int face,
-                     std::vector<Contribution>& ingredients) const {
-    for (Contribution& ingredient : ingredients) {
-      if (ingredient.k == k) return ingredient;
-    }
-    Contribution& ingredient = ingredients.emplace_back();
-    ingredient.k = k;
-    const auto sighting = photos_[cells_.photos[k]].Observe(views_[k], plane_point, face);
-    ingredient.is_seen = sighting.has_value();
-    if (sighting) ingredient.sighting = *sighting;
-    return ingredient;
-  }
+                     std::vector<Contribution>& contributions) const;
 
   // Those chosen do not see enough of it: the others, the better the more.
   void AddOthers(const Eigen::Vector2d& plane_point,
                  int face,
-                 const CellBlend& blend,
+                 const BlockWeights& blend,
                  double chosen,
-                 std::vector<Contribution>& ingredients) const {
-    double best = 0;
-    std::vector<double> quality(cells_.photos.size(), 0);
-    for (size_t k = 0; k < cells_.photos.size(); ++k) {
-      const Contribution& ingredient = Find(static_cast<int>(k), plane_point, face, ingredients);
-      if (!ingredient.is_seen) continue;
-      double consistency = 0;
-      for (int corner = 0; corner < 4; ++corner) {
-        consistency += blend.weights[corner] *
-                       choice_.consistency[blend.blocks[corner] * cells_.photos.size() + k];
-      }
-      quality[k] = photos_[cells_.photos[k]].Quality(ingredient.sighting) *
-                   (consistency + options_.least_consistency);
-      best = std::max(best, quality[k]);
-    }
-    if (best <= 0) return;
-    for (Contribution& ingredient : ingredients) {
-      const double share = quality[ingredient.k] / best;
-      ingredient.weight += (options_.enough_chosen - chosen) * options_.others_weight * share *
-                           share * share * share;
-    }
-  }
+                 std::vector<Contribution>& contributions) const;
 
-  double BorderWeight(const Contribution& ingredient) const {
-    if (!ingredient.is_seen) return 0;
-    const double t = (ingredient.sighting.border_px - border_margin_px_ + options_.ramp_start_px) /
-                     options_.ramp_px;
-    return std::clamp(t, options_.least_border_weight, 1.0);
-  }
+  double BorderWeight(const Contribution& contribution) const;
 
   const Chart& chart_;
   const ChartTexels& texels_;
   const std::vector<PreparedPhoto>& photos_;
-  const ChartBlocks& cells_;
+  const ChartBlocks& blocks_;
   const ChartChoice& choice_;
   const BlendOptions& options_;
   double border_margin_px_;
-  bool smooth_seams_;
   std::vector<ChartInCamera> views_;
 };
 

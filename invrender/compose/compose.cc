@@ -3,6 +3,7 @@
 #include "invrender/compose/compose.h"
 
 #include "invrender/compose/blender.h"
+#include "invrender/photos/srgb_codes.h"
 
 #include <tbb/parallel_for.h>
 
@@ -62,11 +63,15 @@ using BandLookups = std::vector<std::vector<Lookup>>;
 // A chart's texels on the way.
 class ChartComposer {
  public:
-  ChartComposer(const ComposeInputs& inputs, const ColourModel& colour, const BakeOptions& options)
+  ChartComposer(const ComposeInputs& inputs,
+                const ColourModel& colour,
+                const BlendOptions& options,
+                int bits)
       : inputs_(inputs),
         width_(inputs.chart.width_texels),
         height_(inputs.chart.height_texels),
-        blender_(inputs, options.blend, options.border_margin_px, options.smooth_seams),
+        sampling_(options.sampling),
+        blender_(inputs, options),
         footprints_((width_ + kFootprintStep - 1) / kFootprintStep,
                     (height_ + kFootprintStep - 1) / kFootprintStep,
                     1) {
@@ -74,7 +79,7 @@ class ChartComposer {
     for (size_t k = 0; k < photos.size(); ++k) {
       corrections_.emplace_back(colour, photos[k], inputs.chart_index, static_cast<int>(k));
     }
-    if (options.bits == 16) {
+    if (bits == 16) {
       pixels_.srgb16 = Image16(width_, height_, 3);
     } else {
       pixels_.srgb8 = Image8(width_, height_, 3);
@@ -101,7 +106,7 @@ class ChartComposer {
  private:
   // The look-ups of a row's texels; their states, provenance and reach.
   void FindRow(int y, std::vector<Lookup>& lookups) {
-    std::vector<Contribution> ingredients;
+    std::vector<Contribution> contributions;
     std::array<SurfaceObservation, Blender::kRunTexels> run;
     std::vector<int> chosen;
     blender_.ChooseRow(y, chosen);
@@ -111,19 +116,19 @@ class ChartComposer {
         continue;
       }
       const int num_in_run = blender_.GatherRun(x, y, chosen, run);
-      ingredients.resize(1);
-      ingredients[0] = {chosen[x], 1, true, {}};
+      contributions.resize(1);
+      contributions[0] = {chosen[x], 1, true, {}};
       for (int i = 0; i < num_in_run; ++i, ++x) {
-        ingredients[0].sighting = run[i];
-        AddTexel(x, y, ingredients, lookups);
+        contributions[0].observation = run[i];
+        AddTexel(x, y, contributions, lookups);
       }
       if (num_in_run > 0) continue;
-      if (ingredients[0].k < 0 ||
-          !blender_.SeesClear(ingredients[0].k, x, y, ingredients[0].sighting)) {
-        blender_.Gather(x, y, ingredients);
+      if (contributions[0].k < 0 ||
+          !blender_.SeesClear(contributions[0].k, x, y, contributions[0].observation)) {
+        blender_.Gather(x, y, contributions);
       }
       *pixels_.states.At(x, y) = static_cast<uint8_t>(TexelState::kOpen);
-      if (!ingredients.empty()) AddTexel(x, y, ingredients, lookups);
+      if (!contributions.empty()) AddTexel(x, y, contributions, lookups);
       ++x;
     }
     SortByPhoto(inputs_.blocks.photos.size(), lookups);
@@ -131,27 +136,29 @@ class ChartComposer {
 
   void AddTexel(int x,
                 int y,
-                const std::vector<Contribution>& ingredients,
+                const std::vector<Contribution>& contributions,
                 std::vector<Lookup>& lookups) {
-    const Contribution& main = *std::max_element(
-        ingredients.begin(), ingredients.end(), [](const Contribution& a, const Contribution& b) {
-          return a.weight < b.weight || (a.weight == b.weight && a.k > b.k);
-        });
-    for (const Contribution& i : ingredients) {
+    const Contribution& main =
+        *std::max_element(contributions.begin(),
+                          contributions.end(),
+                          [](const Contribution& a, const Contribution& b) {
+                            return a.weight < b.weight || (a.weight == b.weight && a.k > b.k);
+                          });
+    for (const Contribution& i : contributions) {
       lookups.push_back({i.k,
                          x,
                          static_cast<float>(i.weight),
-                         i.sighting.image_px.cast<float>(),
-                         i.sighting.px_from_unit.cast<float>()});
+                         i.observation.image_px.cast<float>(),
+                         i.observation.px_from_unit.cast<float>()});
     }
-    const bool is_good = blender_.IsGood(ingredients);
+    const bool is_good = blender_.IsGood(contributions);
     *pixels_.states.At(x, y) =
         static_cast<uint8_t>(is_good ? TexelState::kGood : TexelState::kWeak);
-    if (!is_good) *pixels_.reach.At(x, y) = blender_.ReachFromBorder(main.sighting);
+    if (!is_good) *pixels_.reach.At(x, y) = blender_.ReachFromBorder(main.observation);
     *pixels_.provenance.At(x, y) = static_cast<uint16_t>(inputs_.blocks.photos[main.k] + 1);
     if (x % kFootprintStep == 0 && y % kFootprintStep == 0) {
       *footprints_.At(x / kFootprintStep, y / kFootprintStep) =
-          static_cast<float>(1 / std::sqrt(std::abs(main.sighting.px_from_unit.determinant())));
+          static_cast<float>(1 / std::sqrt(std::abs(main.observation.px_from_unit.determinant())));
     }
   }
 
@@ -177,7 +184,7 @@ class ChartComposer {
               lookup.weight *
               pyramid->Sample(image_px,
                               lookup.px_from_unit.cast<double>() * inputs_.chart.texel_size,
-                              kMaxTaps) *
+                              sampling_) *
               corrections_[k].At(photo.RadiusSquared(image_px));
         }
       });
@@ -217,12 +224,11 @@ class ChartComposer {
 
   // Of every so manieth texel each way the footprint is kept.
   static constexpr int kFootprintStep = 4;
-  // For one texel's look-up along each side (PhotoPyramid::Sample).
-  static constexpr int kMaxTaps = 4;
 
   const ComposeInputs& inputs_;
   int width_;
   int height_;
+  const SamplingOptions& sampling_;
   Blender blender_;
   std::vector<CorrectionTable> corrections_;  // by k
   ChartPixels pixels_;
@@ -233,8 +239,9 @@ class ChartComposer {
 
 ChartPixels ComposeChart(const ComposeInputs& inputs,
                          const ColourModel& colour,
-                         const BakeOptions& options) {
-  ChartComposer composer(inputs, colour, options);
+                         const BlendOptions& options,
+                         int bits) {
+  ChartComposer composer(inputs, colour, options, bits);
   const int height = inputs.chart.height_texels;
   const int band_rows = std::max(16, kBandTexels / inputs.chart.width_texels);
   for (int y0 = 0; y0 < height; y0 += band_rows) {

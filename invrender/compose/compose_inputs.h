@@ -3,7 +3,7 @@
 #pragma once
 
 #include "invrender/charts/charts.h"
-#include "invrender/measure/texel_blocks.h"
+#include "invrender/measure/chart_blocks.h"
 #include "invrender/photos/prepared_photo.h"
 #include "invrender/select/chart_choice.h"
 
@@ -17,6 +17,7 @@ struct ComposeInputs {
   int chart_index;
   const ChartTexels& texels;
   const std::vector<PreparedPhoto>& photos;
+  double border_margin_px;  // PhotoOptions, of all of them
   const ChartBlocks& blocks;
   const ChartChoice& choice;
 };

@@ -2,8 +2,10 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/compose/compose.h"
+#include "invrender/charts/charts.h"
+#include "invrender/compose/chart_pixels.h"
 #include "invrender/inputs/fill_options.h"
+#include "scene/textured_model.h"
 
 namespace groundglass {
 

@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #include "invrender/compose/fill.h"
 
+#include "scene/textured_model.h"
+
 #include <opencv2/core.hpp>
 #include <opencv2/photo.hpp>
-
-#include <algorithm>
 
 namespace groundglass {
 namespace {

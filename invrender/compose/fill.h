@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/compose/compose.h"
+#include "invrender/compose/chart_pixels.h"
 #include "invrender/inputs/fill_options.h"
 
 namespace groundglass {

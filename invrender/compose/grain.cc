@@ -2,10 +2,15 @@
 // Part of Groundglass.
 #include "invrender/compose/grain.h"
 
+#include "invrender/measure/bounded_least_squares.h"
+#include "invrender/measure/median.h"
+#include "invrender/photos/srgb_codes.h"
+
 #include <opencv2/imgproc.hpp>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -44,22 +49,22 @@ Bands SplitBands(const Plane& in) {
 
 // What the filters' reach leaves of a patch.
 constexpr int kReach = 6;
-constexpr int kInner = kSpotSide - 2 * kReach;
+constexpr int kInner = kPatchSide - 2 * kReach;
 using BandPatch = Eigen::Array<float, kInner, kInner>;
 
-struct SpotBands {
+struct PatchBands {
   int photo = -1;
   float mean = 0;  // encoded, 1 is white
   std::array<BandPatch, kGrainBands> bands;
   BandPatch Both() const { return bands[0] + bands[1]; }
 };
 
-SpotBands SplitSpot(const SpotView& view) {
-  Plane luma(kSpotSide, kSpotSide);
-  SpotBands patch;
+PatchBands SplitPatch(const PatchView& view) {
+  Plane luma(kPatchSide, kPatchSide);
+  PatchBands patch;
   patch.photo = view.photo;
-  for (int y = 0; y < kSpotSide; ++y) {
-    for (int x = 0; x < kSpotSide; ++x) luma(y, x) = view.luma(y, x) / 65535.0f;
+  for (int y = 0; y < kPatchSide; ++y) {
+    for (int x = 0; x < kPatchSide; ++x) luma(y, x) = view.luma(y, x) / 65535.0f;
   }
   patch.mean = view.luma.cast<float>().mean() / 65535.0f;
   const Bands split = SplitBands(luma);
@@ -77,11 +82,11 @@ using PhotoPair = std::pair<int, int>;  // ascending
 
 // Two photographs' views of one patch.
 struct PatchPair {
-  const SpotBands* first = nullptr;
-  const SpotBands* second = nullptr;
+  const PatchBands* first = nullptr;
+  const PatchBands* second = nullptr;
   float energy = 0;
 
-  PatchPair(const SpotBands& a, const SpotBands& b)
+  PatchPair(const PatchBands& a, const PatchBands& b)
       : first(a.photo < b.photo ? &a : &b),
         second(a.photo < b.photo ? &b : &a),
         energy(std::sqrt(a.Both().square().mean() * b.Both().square().mean())) {}
@@ -158,17 +163,16 @@ std::vector<double> SolveVariances(const std::map<PhotoPair, std::vector<float>>
     std::vector<float> sorted = unsorted;
     const auto rank =
         static_cast<size_t>(options.calm_quantile * static_cast<double>(sorted.size()));
-    std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
+    const float calm = ValueAtRank(sorted, rank);
     const double weight = static_cast<double>(sorted.size());
     for (const int i : {photos.first, photos.second}) {
-      right[i] += weight * sorted[rank];
+      right[i] += weight * calm;
       for (const int j : {photos.first, photos.second}) normal(i, j) += weight;
     }
-    halves.push_back(sorted[rank] / 2);
+    halves.push_back(calm / 2);
   }
   if (halves.empty()) return std::vector<double>(num_photos, 0);
-  std::nth_element(halves.begin(), halves.begin() + halves.size() / 2, halves.end());
-  right.array() += options.prior_patches * halves[halves.size() / 2];
+  right.array() += options.prior_patches * Median(halves);
   const Eigen::VectorXd variances = SolveBounded(normal, right, 0);
   return {variances.begin(), variances.end()};
 }
@@ -182,8 +186,7 @@ Image16 LumaOf(const Raster<Code>& srgb) {
     const Code* from = srgb.At(0, y);
     uint16_t* to = luma.At(0, y);
     for (int x = 0; x < srgb.width; ++x, from += 3) {
-      const float value = 0.2126f * from[0] + 0.7152f * from[1] + 0.0722f * from[2];
-      to[x] = static_cast<uint16_t>(kScale * value + 0.5f);
+      to[x] = static_cast<uint16_t>(kScale * Luma(from[0], from[1], from[2]) + 0.5f);
     }
   });
   return luma;
@@ -233,40 +236,56 @@ void Smooth(const std::vector<std::array<float, kGrainBands>>& variances,
   });
 }
 
+// All pairs of views of one patch, by chart; and how much they differ in each band, by photographs.
+struct PairsAndDifferences {
+  std::vector<std::vector<PatchPair>> pairs;
+  std::array<std::map<PhotoPair, std::vector<float>>, kGrainBands> differences;
+};
+
+PairsAndDifferences ComparePatches(const std::vector<Patch>& patches,
+                                   const std::vector<std::vector<PatchBands>>& views,
+                                   size_t num_charts,
+                                   const GrainOptions& options) {
+  PairsAndDifferences found;
+  found.pairs.resize(num_charts);
+  for (size_t i = 0; i < patches.size(); ++i) {
+    for (size_t a = 0; a < views[i].size(); ++a) {
+      for (size_t b = a + 1; b < views[i].size(); ++b) {
+        const PatchPair& pair =
+            found.pairs[patches[i].chart].emplace_back(views[i][a], views[i][b]);
+        if (std::min(pair.first->mean, pair.second->mean) < options.dark) continue;
+        const float ratio = pair.first->mean / pair.second->mean;
+        for (int band = 0; band < kGrainBands; ++band) {
+          found.differences[band][pair.Photos()].push_back(
+              (pair.first->bands[band] - ratio * pair.second->bands[band]).square().mean());
+        }
+      }
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 Grain MeasureGrain(const std::vector<Patch>& patches,
                    size_t num_charts,
                    size_t num_photos,
                    const GrainOptions& options) {
-  std::vector<std::vector<SpotBands>> views(patches.size());
+  std::vector<std::vector<PatchBands>> views(patches.size());
   tbb::parallel_for(size_t{0}, patches.size(), [&](size_t i) {
-    for (const SpotView& view : patches[i].views) views[i].push_back(SplitSpot(view));
+    for (const PatchView& view : patches[i].views) views[i].push_back(SplitPatch(view));
   });
-  std::vector<std::vector<PatchPair>> pairs(num_charts);
-  std::array<std::map<PhotoPair, std::vector<float>>, kGrainBands> differences;
-  for (size_t i = 0; i < patches.size(); ++i) {
-    for (size_t a = 0; a < views[i].size(); ++a) {
-      for (size_t b = a + 1; b < views[i].size(); ++b) {
-        const PatchPair& pair = pairs[patches[i].chart].emplace_back(views[i][a], views[i][b]);
-        if (std::min(pair.first->mean, pair.second->mean) < options.dark) continue;
-        const float ratio = pair.first->mean / pair.second->mean;
-        for (int band = 0; band < kGrainBands; ++band) {
-          differences[band][pair.Photos()].push_back(
-              (pair.first->bands[band] - ratio * pair.second->bands[band]).square().mean());
-        }
-      }
-    }
-  }
+  PairsAndDifferences found = ComparePatches(patches, views, num_charts, options);
   Grain grain;
   std::vector<Agreement> agreements(num_charts);
   tbb::parallel_for(size_t{0}, num_charts, [&](size_t chart) {
-    agreements[chart] = MeasureAgreement(std::move(pairs[chart]), options);
+    agreements[chart] = MeasureAgreement(std::move(found.pairs[chart]), options);
   });
   grain.certainty = Certainty(agreements, options);
   grain.variances.resize(num_photos);
   for (int band = 0; band < kGrainBands; ++band) {
-    const std::vector<double> variances = SolveVariances(differences[band], num_photos, options);
+    const std::vector<double> variances =
+        SolveVariances(found.differences[band], num_photos, options);
     for (size_t photo = 0; photo < num_photos; ++photo) {
       grain.variances[photo][band] = variances[photo];
     }
@@ -274,14 +293,9 @@ Grain MeasureGrain(const std::vector<Patch>& patches,
   return grain;
 }
 
-void SmoothGrain(const Chart& chart,
-                 int chart_index,
-                 const ChartBlocks& blocks,
-                 const ColourModel& colour,
-                 const Grain& grain,
-                 const GrainOptions& options,
-                 ChartPixels& pixels) {
-  const double certainty = grain.certainty[chart_index];
+void SmoothGrain(const GrainInputs& inputs, const GrainOptions& options, ChartPixels& pixels) {
+  const Grain& grain = inputs.grain;
+  const double certainty = grain.certainty[inputs.chart_index];
   if (certainty <= 0) return;
   std::vector<std::vector<float>> footprints(grain.variances.size());
   for (const FaceSource& source : pixels.sources) {
@@ -289,16 +303,15 @@ void SmoothGrain(const Chart& chart,
     all.insert(all.end(), source.footprints.begin(), source.footprints.end());
   }
   std::vector<std::array<float, kGrainBands>> variances(grain.variances.size() + 1, {0, 0});
-  for (size_t k = 0; k < blocks.photos.size(); ++k) {
-    const int photo = blocks.photos[k];
-    std::vector<float>& all = footprints[photo];
-    if (all.empty()) continue;
-    std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
+  for (size_t k = 0; k < inputs.blocks.photos.size(); ++k) {
+    const int photo = inputs.blocks.photos[k];
+    if (footprints[photo].empty()) continue;
     // Texels of several pixels have less grain.
-    const double texel_px = std::max(1.0, chart.texel_size / all[all.size() / 2]);
+    const double texel_px = std::max(1.0, inputs.chart.texel_size / Median(footprints[photo]));
     // A correction multiplies radiance; codes go with its root of about 2.4.
     const double log_gain =
-        colour.Correction(photo, chart_index, static_cast<int>(k), options.vignetting_at)
+        inputs.colour
+            .Correction(photo, inputs.chart_index, static_cast<int>(k), options.vignetting_at)
             .log()
             .mean() /
         2.4;

@@ -2,9 +2,12 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/compose/compose.h"
+#include "invrender/charts/charts.h"
+#include "invrender/colour/colour.h"
+#include "invrender/compose/chart_pixels.h"
 #include "invrender/inputs/detail_options.h"
-#include "invrender/measure/patches.h"
+#include "invrender/measure/chart_blocks.h"
+#include "invrender/measure/patch.h"
 
 #include <array>
 #include <vector>
@@ -35,16 +38,18 @@ Grain MeasureGrain(const std::vector<Patch>& patches,
                    size_t num_photos,
                    const GrainOptions& options);
 
+// A chart with what is known of its grain. All must outlive the work.
+struct GrainInputs {
+  const Chart& chart;
+  int chart_index;
+  const ChartBlocks& blocks;
+  const ColourModel& colour;  // what the texels were corrected by
+  const Grain& grain;
+};
+
 // Lowers the grain of a chart's texels: each band of their luma is multiplied by the share of its
 // energy thereabouts that is more than grain (Wiener's filter; Lee, PAMI 1980), so that lines and
-// edges stay as they are. Texels' photographs are taken from the provenance, and `colour` is what
-// they were corrected by.
-void SmoothGrain(const Chart& chart,
-                 int chart_index,
-                 const ChartBlocks& blocks,
-                 const ColourModel& colour,
-                 const Grain& grain,
-                 const GrainOptions& options,
-                 ChartPixels& pixels);
+// edges stay as they are. Texels' photographs are taken from the provenance.
+void SmoothGrain(const GrainInputs& inputs, const GrainOptions& options, ChartPixels& pixels);
 
 }  // namespace groundglass

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "scene/camera.h"
+#include "scene/image.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,5 +24,8 @@ struct BakePhotograph {
   // The faces (from 0) that it may texture; nothing: all of them.
   std::optional<std::vector<int>> faces;
 };
+
+// Gets the face mask of a photograph, with the faces' numbers in the model's file.
+using FaceMaskObserver = std::function<void(const BakePhotograph&, const Image16& numbers)>;
 
 }  // namespace groundglass

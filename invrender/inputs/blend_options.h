@@ -2,13 +2,17 @@
 // Part of Groundglass.
 #pragma once
 
+#include "invrender/inputs/sampling_options.h"
+
 #include <string>
 
 namespace groundglass {
 
 // How texels are blended of the photographs that their blocks chose (Blender). Distances are in a
-// photograph's pixels; `margin` is BakeOptions::border_margin_px.
+// photograph's pixels; `margin` is PhotoOptions::border_margin_px.
 struct BlendOptions {
+  // Whether photographs are blended in a band of one block along seams.
+  bool across_seams = true;
   // So far beyond the margin a place is clear of borders, and its block's photograph alone will do.
   double clear_px = 1.5;
   // A chosen photograph's weight grows from nothing to all between ramp_start_px before the margin
@@ -32,6 +36,8 @@ struct BlendOptions {
   // the chart, but for no more texels than farthest_reach.
   double reach_beyond_px = 1;
   int farthest_reach = 32;
+
+  SamplingOptions sampling;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "blend options: ") const;

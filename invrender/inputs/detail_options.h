@@ -6,6 +6,21 @@
 
 namespace groundglass {
 
+// Where photographs are compared for blur and grain (SamplePatches).
+struct PatchOptions {
+  // No more patches than this, and of each the best views only. Raise both for accuracy, lower them
+  // for time.
+  int max_patches = 3000;
+  int max_views = 6;
+  // Pixels longer than this many of the best photograph's say little of fine detail.
+  double max_coarseness = 2;
+  // Patches lie farther than this from borders, px.
+  double clear_px = 3;
+
+  // Throws Error naming the first field out of range, behind `path`.
+  void Check(const std::string& path = "patch options: ") const;
+};
+
 // How blurred photographs are told (MeasureSharpness).
 struct SharpnessOptions {
   // Correlation from which two photographs show the same, so that a patch compares them.

@@ -6,18 +6,20 @@
 
 namespace groundglass {
 
-// What seams between photographs cost (SmoothSeams). Costs are natural logarithms of quality: 0.7
-// is half the resolution.
+// The energy that SmoothSeams minimises over the blocks of a chart. A block's data cost is the
+// natural logarithm of its best photograph's quality over that of the one taken (0.7: half the
+// resolution); seams between blocks that take different photographs cost more.
 struct SeamOptions {
-  // The most that a photograph can lose by being worse than a block's best.
-  double worst = 12;
-  // One block's side of seam where nothing shows. Raise it for fewer and larger pieces.
-  double side = 0.15;
+  // The most that a block's data cost can be.
+  double max_data_cost = 12;
+  // Cost of one block's side of seam where the photographs look alike. Raise it for fewer and
+  // larger pieces.
+  double seam_cost = 0.15;
   // More for each log unit that the two photographs differ there. Raise it to move seams farther
   // to where they do not show, at the expense of resolution.
-  double per_difference = 4;
+  double difference_cost = 4;
   // Differences beyond this (log units) are all alike.
-  double most_different = 1;
+  double max_difference = 1;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "seam options: ") const;

@@ -3,23 +3,16 @@
 #include "invrender/measure/patches.h"
 
 #include "invrender/charts/spread_points.h"
-#include "scene/srgb.h"
+#include "invrender/photos/srgb_codes.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 
 namespace groundglass {
 namespace {
-
-constexpr size_t kMostSpots = 3000;
-constexpr size_t kMostViews = 6;
-// Pixels longer than this many of the best photograph's say little of fine detail.
-constexpr double kCoarsest = 2;
-constexpr double kClearPx = 3;  // of borders
 
 Eigen::Vector2d SampleInPlane(const Patch& patch, double row, double column) {
   return patch.corner_in_plane + patch.step * Eigen::Vector2d(column, row);
@@ -27,7 +20,9 @@ Eigen::Vector2d SampleInPlane(const Patch& patch, double row, double column) {
 
 // One on each of the points that SpreadPoints gives, thinned out evenly; corner_in_plane is the
 // patch's middle for now.
-std::vector<Patch> SpreadSpots(const PolygonModel& model, const std::vector<Chart>& charts) {
+std::vector<Patch> SpreadPatches(const PolygonModel& model,
+                                 const std::vector<Chart>& charts,
+                                 const PatchOptions& options) {
   std::vector<Patch> patches;
   for (size_t chart = 0; chart < charts.size(); ++chart) {
     for (const int face : charts[chart].faces) {
@@ -39,18 +34,23 @@ std::vector<Patch> SpreadSpots(const PolygonModel& model, const std::vector<Char
       }
     }
   }
-  if (patches.size() <= kMostSpots) return patches;
+  const auto num_kept = static_cast<size_t>(options.max_patches);
+  if (patches.size() <= num_kept) return patches;
   std::vector<Patch> kept;
-  for (size_t i = 0; i < kMostSpots; ++i) kept.push_back(patches[i * patches.size() / kMostSpots]);
+  for (size_t i = 0; i < num_kept; ++i) kept.push_back(patches[i * patches.size() / num_kept]);
   return kept;
 }
 
-bool ShowsWhole(const PreparedPhoto& photo, const ChartInCamera& in_camera, const Patch& patch) {
-  constexpr double kLast = kSpotSide - 1;
+bool ShowsWhole(const PreparedPhoto& photo,
+                const ChartInCamera& in_camera,
+                const Patch& patch,
+                const PatchOptions& options) {
+  constexpr double kLast = kPatchSide - 1;
   for (const double row : {0.0, kLast / 2, kLast}) {
     for (const double column : {0.0, kLast / 2, kLast}) {
-      const auto sighting = photo.Observe(in_camera, SampleInPlane(patch, row, column), patch.face);
-      if (!sighting || sighting->border_px < kClearPx) return false;
+      const auto observation =
+          photo.Observe(in_camera, SampleInPlane(patch, row, column), patch.face);
+      if (!observation || observation->border_px < options.clear_px) return false;
     }
   }
   return true;
@@ -59,21 +59,22 @@ bool ShowsWhole(const PreparedPhoto& photo, const ChartInCamera& in_camera, cons
 // Settles the patch's place and who shows it; no views if fewer than two do.
 void FindViews(const std::vector<Chart>& charts,
                const std::vector<PreparedPhoto>& photos,
+               const PatchOptions& options,
                Patch& patch) {
   const Eigen::Vector2d middle = patch.corner_in_plane;
   const auto in_camera = [&](int photo) {
     return photos[photo].View(charts[patch.chart], patch.chart);
   };
-  std::vector<SpotView> views;  // of hundreds of photographs, so that the patch keeps a few only
+  std::vector<PatchView> views;  // of hundreds of photographs, so that the patch keeps a few only
   for (int photo = 0; photo < static_cast<int>(photos.size()); ++photo) {
-    const auto sighting = photos[photo].Observe(in_camera(photo), middle, patch.face);
-    if (!sighting || sighting->border_px < kClearPx) continue;
-    const double px_per_unit = std::sqrt(std::abs(sighting->px_from_unit.determinant()));
+    const auto observation = photos[photo].Observe(in_camera(photo), middle, patch.face);
+    if (!observation || observation->border_px < options.clear_px) continue;
+    const double px_per_unit = std::sqrt(std::abs(observation->px_from_unit.determinant()));
     if (!(px_per_unit > 0)) continue;
-    SpotView& view = views.emplace_back();
+    PatchView& view = views.emplace_back();
     view.photo = photo;
     view.px_per_unit = px_per_unit;
-    view.step_from_px = px_per_unit * sighting->px_from_unit.inverse();
+    view.step_from_px = px_per_unit * observation->px_from_unit.inverse();
   }
   if (views.size() < 2) return;
   std::stable_sort(views.begin(), views.end(), [](const auto& a, const auto& b) {
@@ -81,29 +82,29 @@ void FindViews(const std::vector<Chart>& charts,
   });
   const double best = views.front().px_per_unit;
   patch.step = 1 / best;
-  patch.corner_in_plane = middle - Eigen::Vector2d::Constant(patch.step * (kSpotSide - 1) / 2);
-  for (SpotView& view : views) view.step_from_px *= best / view.px_per_unit;
-  std::erase_if(views, [&](const SpotView& view) {
-    return view.px_per_unit * kCoarsest < best ||
-           !ShowsWhole(photos[view.photo], in_camera(view.photo), patch);
+  patch.corner_in_plane = middle - Eigen::Vector2d::Constant(patch.step * (kPatchSide - 1) / 2);
+  for (PatchView& view : views) view.step_from_px *= best / view.px_per_unit;
+  std::erase_if(views, [&](const PatchView& view) {
+    return view.px_per_unit * options.max_coarseness < best ||
+           !ShowsWhole(photos[view.photo], in_camera(view.photo), patch, options);
   });
   if (views.size() < 2) return;
-  if (views.size() > kMostViews) views.resize(kMostViews);
+  views.resize(std::min(views.size(), static_cast<size_t>(options.max_views)));
   patch.views.assign(views.begin(), views.end());
 }
 
-SpotSamples LookAtSpot(const Chart& chart,
-                       const PreparedPhoto& photo,
-                       const PhotoPyramid& pixels,
-                       const Patch& patch) {
+PatchSamples SamplePatch(const Chart& chart,
+                         const PreparedPhoto& photo,
+                         const PhotoPyramid& pixels,
+                         const Patch& patch) {
   const ChartInCamera in_camera = photo.View(chart, patch.chart);
-  const Eigen::Array3f luma(0.2126f, 0.7152f, 0.0722f);
-  SpotSamples samples;
-  for (int y = 0; y < kSpotSide; ++y) {
-    for (int x = 0; x < kSpotSide; ++x) {
+  PatchSamples samples;
+  for (int y = 0; y < kPatchSide; ++y) {
+    for (int x = 0; x < kPatchSide; ++x) {
       const Eigen::Vector2d image_px = photo.Locate(in_camera, SampleInPlane(patch, y, x));
-      const Eigen::Array3f radiance = pixels.Sample(image_px, Eigen::Matrix2d::Zero(), 1);
-      samples(y, x) = Srgb16FromRadiance(std::min(1.0f, (radiance * luma).sum()));
+      const Eigen::Array3f radiance = pixels.Sample(image_px, Eigen::Matrix2d::Zero(), kOneTap);
+      samples(y, x) =
+          Srgb16FromRadiance(std::min(1.0f, Luma(radiance[0], radiance[1], radiance[2])));
     }
   }
   return samples;
@@ -113,15 +114,16 @@ SpotSamples LookAtSpot(const Chart& chart,
 
 std::vector<Patch> SamplePatches(const PolygonModel& model,
                                  const std::vector<Chart>& charts,
-                                 const std::vector<PreparedPhoto>& photos) {
-  std::vector<Patch> patches = SpreadSpots(model, charts);
+                                 const std::vector<PreparedPhoto>& photos,
+                                 const PatchOptions& options) {
+  std::vector<Patch> patches = SpreadPatches(model, charts, options);
   tbb::parallel_for(
-      size_t{0}, patches.size(), [&](size_t i) { FindViews(charts, photos, patches[i]); });
+      size_t{0}, patches.size(), [&](size_t i) { FindViews(charts, photos, options, patches[i]); });
   std::erase_if(patches, [](const Patch& patch) { return patch.views.empty(); });
   for (int photo = 0; photo < static_cast<int>(photos.size()); ++photo) {
-    std::vector<std::pair<const Patch*, SpotView*>> wanted;
+    std::vector<std::pair<const Patch*, PatchView*>> wanted;
     for (Patch& patch : patches) {
-      for (SpotView& view : patch.views) {
+      for (PatchView& view : patch.views) {
         if (view.photo == photo) wanted.emplace_back(&patch, &view);
       }
     }
@@ -129,24 +131,10 @@ std::vector<Patch> SamplePatches(const PolygonModel& model,
     const std::shared_ptr<const PhotoPyramid> pixels = photos[photo].Pixels();
     tbb::parallel_for(size_t{0}, wanted.size(), [&](size_t i) {
       const auto& [patch, view] = wanted[i];
-      view->luma = LookAtSpot(charts[patch->chart], photos[photo], *pixels, *patch);
+      view->luma = SamplePatch(charts[patch->chart], photos[photo], *pixels, *patch);
     });
   }
   return patches;
-}
-
-Eigen::VectorXd SolveBounded(const Eigen::MatrixXd& normal,
-                             const Eigen::VectorXd& right,
-                             double least) {
-  constexpr int kRounds = 200;
-  Eigen::VectorXd x = Eigen::VectorXd::Constant(right.size(), least);
-  for (int round = 0; round < kRounds; ++round) {
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      const double rest = right[i] - normal.col(i).dot(x);
-      x[i] = std::max(least, x[i] + rest / normal(i, i));
-    }
-  }
-  return x;
 }
 
 }  // namespace groundglass

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "invrender/inputs/detail_options.h"
-#include "invrender/measure/patches.h"
+#include "invrender/measure/patch.h"
 
 #include <Eigen/Dense>
 

@@ -13,16 +13,16 @@ namespace groundglass {
 namespace {
 
 // The texel that stands for a block: the most central one that has a face.
-bool FindTexel(const ChartTexels& texels, int cell_x, int cell_y, int& best_x, int& best_y) {
-  constexpr double kCentre = (kCellTexels - 1) / 2.0;
+bool FindTexel(const ChartTexels& texels, int block_x, int block_y, int& best_x, int& best_y) {
+  constexpr double kCentre = (kBlockTexels - 1) / 2.0;
   double best = 1e300;
-  for (int j = 0; j < kCellTexels; ++j) {
-    for (int i = 0; i < kCellTexels; ++i) {
-      const int x = cell_x * kCellTexels + i;
-      const int y = cell_y * kCellTexels + j;
+  for (int j = 0; j < kBlockTexels; ++j) {
+    for (int i = 0; i < kBlockTexels; ++i) {
+      const int x = block_x * kBlockTexels + i;
+      const int y = block_y * kBlockTexels + j;
       if (x >= texels.width() || y >= texels.height() || texels.FaceAt(x, y) < 0) continue;
       const double distance =
-          std::hypot(i - kCentre, j - kCentre) + (texels.IsCentreInside(x, y) ? 0 : kCellTexels);
+          std::hypot(i - kCentre, j - kCentre) + (texels.IsCentreInside(x, y) ? 0 : kBlockTexels);
       if (distance < best) {
         best = distance;
         best_x = x;
@@ -33,71 +33,71 @@ bool FindTexel(const ChartTexels& texels, int cell_x, int cell_y, int& best_x, i
   return best < 1e300;
 }
 
-CellView ViewCell(const PreparedPhoto& photo,
-                  const PhotoPyramid& pixels,
-                  const SurfaceObservation& sighting,
-                  double texel_size,
-                  const BlockOptions& options) {
-  CellView view;
-  view.quality = static_cast<float>(photo.Quality(sighting));
-  view.radius_squared = static_cast<float>(photo.RadiusSquared(sighting.image_px));
+BlockView ViewBlock(const PreparedPhoto& photo,
+                    const PhotoPyramid& pixels,
+                    const SurfaceObservation& observation,
+                    double texel_size,
+                    const BlockOptions& options) {
+  BlockView view;
+  view.quality = static_cast<float>(photo.Quality(observation));
+  view.radius_squared = static_cast<float>(photo.RadiusSquared(observation.image_px));
   // One tap at the level where the block is a pixel.
-  const Eigen::Array3f radiance =
-      pixels.Sample(sighting.image_px, sighting.px_from_unit * texel_size * kCellTexels, 1);
+  const Eigen::Array3f radiance = pixels.Sample(
+      observation.image_px, observation.px_from_unit * texel_size * kBlockTexels, kOneTap);
   view.is_usable = radiance.minCoeff() > options.black && radiance.maxCoeff() < options.burnt &&
-                   sighting.border_px > options.clear_px;
+                   observation.border_px > options.clear_px;
   view.log_radiance = radiance.max(options.black / 4).log();
   return view;
 }
 
 // A chart's blocks on the way.
-class CellObserver {
+class BlockObserver {
  public:
-  CellObserver(const PolygonModel& model,
-               const Chart& chart,
-               int chart_index,
-               const std::vector<PreparedPhoto>& photos)
+  BlockObserver(const PolygonModel& model,
+                const Chart& chart,
+                int chart_index,
+                const std::vector<PreparedPhoto>& photos)
       : chart_(chart), chart_index_(chart_index) {
     const ChartTexels texels(model, chart);
-    cells_.width = (chart.width_texels + kCellTexels - 1) / kCellTexels;
-    cells_.height = (chart.height_texels + kCellTexels - 1) / kCellTexels;
-    cells_.photos = FindPhotosOfChart(chart, chart_index, photos);
-    cells_.views.resize(cells_.photos.size() * cells_.NumCells());
-    sees_.assign(cells_.photos.size(), 0);
-    spots_.resize(cells_.NumCells());
-    tbb::parallel_for(0, cells_.height, [&](int cell_y) {
-      for (int cell_x = 0; cell_x < cells_.width; ++cell_x) {
+    blocks_.width = (chart.width_texels + kBlockTexels - 1) / kBlockTexels;
+    blocks_.height = (chart.height_texels + kBlockTexels - 1) / kBlockTexels;
+    blocks_.photos = FindPhotosOfChart(chart, chart_index, photos);
+    blocks_.views.resize(blocks_.photos.size() * blocks_.NumBlocks());
+    sees_.assign(blocks_.photos.size(), 0);
+    points_.resize(blocks_.NumBlocks());
+    tbb::parallel_for(0, blocks_.height, [&](int block_y) {
+      for (int block_x = 0; block_x < blocks_.width; ++block_x) {
         int x = 0;
         int y = 0;
-        if (!FindTexel(texels, cell_x, cell_y, x, y)) continue;
-        spots_[cell_y * cells_.width + cell_x] = {
+        if (!FindTexel(texels, block_x, block_y, x, y)) continue;
+        points_[block_y * blocks_.width + block_x] = {
             (chart.texel_size * texels.PointAt(x, y)).cast<float>(), texels.FaceAt(x, y)};
       }
     });
   }
 
   bool MaySee(int photo) const {
-    return std::binary_search(cells_.photos.begin(), cells_.photos.end(), photo);
+    return std::binary_search(blocks_.photos.begin(), blocks_.photos.end(), photo);
   }
 
   void Observe(int photo_index,
                const PreparedPhoto& photo,
                const PhotoPyramid& pixels,
                const BlockOptions& options) {
-    const auto at = std::lower_bound(cells_.photos.begin(), cells_.photos.end(), photo_index);
-    const size_t k = at - cells_.photos.begin();
-    const size_t num_photos = cells_.photos.size();
+    const auto at = std::lower_bound(blocks_.photos.begin(), blocks_.photos.end(), photo_index);
+    const size_t k = at - blocks_.photos.begin();
+    const size_t num_photos = blocks_.photos.size();
     const ChartInCamera view = photo.View(chart_, chart_index_);
-    std::vector<char> sees_row(cells_.height, 0);
-    tbb::parallel_for(0, cells_.height, [&](int cell_y) {
-      for (int block = cell_y * cells_.width; block < (cell_y + 1) * cells_.width; ++block) {
-        const Spot& spot = spots_[block];
-        if (spot.face < 0) continue;
-        const auto sighting = photo.Observe(view, spot.plane_point.cast<double>(), spot.face);
-        if (!sighting) continue;
-        CellView& cell_view = cells_.views[block * num_photos + k];
-        cell_view = ViewCell(photo, pixels, *sighting, chart_.texel_size, options);
-        if (cell_view.quality > 0) sees_row[cell_y] = 1;
+    std::vector<char> sees_row(blocks_.height, 0);
+    tbb::parallel_for(0, blocks_.height, [&](int block_y) {
+      for (int block = block_y * blocks_.width; block < (block_y + 1) * blocks_.width; ++block) {
+        const SurfacePoint& point = points_[block];
+        if (point.face < 0) continue;
+        const auto observation = photo.Observe(view, point.plane_point.cast<double>(), point.face);
+        if (!observation) continue;
+        BlockView& block_view = blocks_.views[block * num_photos + k];
+        block_view = ViewBlock(photo, pixels, *observation, chart_.texel_size, options);
+        if (block_view.quality > 0) sees_row[block_y] = 1;
       }
     });
     sees_[k] = std::find(sees_row.begin(), sees_row.end(), 1) != sees_row.end();
@@ -105,27 +105,27 @@ class CellObserver {
 
   // Photographs that see none of it are left out.
   ChartBlocks Finish() {
-    const size_t num_photos = cells_.photos.size();
+    const size_t num_photos = blocks_.photos.size();
     size_t num_kept = 0;
-    for (size_t i = 0; i < cells_.views.size(); ++i) {
-      if (sees_[i % num_photos]) cells_.views[num_kept++] = cells_.views[i];
+    for (size_t i = 0; i < blocks_.views.size(); ++i) {
+      if (sees_[i % num_photos]) blocks_.views[num_kept++] = blocks_.views[i];
     }
-    cells_.views.resize(num_kept);
+    blocks_.views.resize(num_kept);
     size_t k = 0;
-    std::erase_if(cells_.photos, [&](int) { return !sees_[k++]; });
-    return std::move(cells_);
+    std::erase_if(blocks_.photos, [&](int) { return !sees_[k++]; });
+    return std::move(blocks_);
   }
 
  private:
-  struct Spot {
+  struct SurfacePoint {
     Eigen::Vector2f plane_point;
     int face = -1;
   };
   const Chart& chart_;
   int chart_index_;
-  ChartBlocks cells_;
+  ChartBlocks blocks_;
   std::vector<char> sees_;
-  std::vector<Spot> spots_;
+  std::vector<SurfacePoint> points_;
 };
 
 }  // namespace
@@ -152,14 +152,14 @@ std::vector<ChartBlocks> ObserveBlocks(const PolygonModel& model,
                                        const std::vector<PreparedPhoto>& photos,
                                        const BlockOptions& options) {
   const int num_charts = static_cast<int>(charts.size());
-  std::vector<std::optional<CellObserver>> observers(charts.size());
+  std::vector<std::optional<BlockObserver>> observers(charts.size());
   tbb::parallel_for(0, num_charts, [&](int i) {
     if (charts[i].page >= 0) observers[i].emplace(model, charts[i], i, photos);
   });
   // Backwards: those that were read last may still be in memory.
   for (int photo = static_cast<int>(photos.size()) - 1; photo >= 0; --photo) {
     std::shared_ptr<const PhotoPyramid> pixels;
-    for (const std::optional<CellObserver>& observer : observers) {
+    for (const std::optional<BlockObserver>& observer : observers) {
       if (!pixels && observer && observer->MaySee(photo)) pixels = photos[photo].Pixels();
     }
     tbb::parallel_for(0, num_charts, [&](int i) {

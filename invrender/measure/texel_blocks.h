@@ -4,36 +4,12 @@
 
 #include "invrender/charts/charts.h"
 #include "invrender/inputs/block_options.h"
+#include "invrender/measure/chart_blocks.h"
 #include "invrender/photos/prepared_photo.h"
-
-#include <Eigen/Dense>
 
 #include <vector>
 
 namespace groundglass {
-
-// Side of a block in texels. Colour, consensus and choice are settled on blocks; texels only
-// follow.
-constexpr int kCellTexels = 5;
-
-// One block as one photograph shows it.
-struct CellView {
-  float quality = 0;         // 0: not seen
-  float radius_squared = 0;  // PreparedPhoto::RadiusSquared
-  bool is_usable = false;    // neither burnt out nor black, and clear of borders
-  Eigen::Array3f log_radiance = Eigen::Array3f::Zero();  // natural logarithm
-};
-
-// What every photograph shows of one chart, coarsely.
-struct ChartBlocks {
-  int width = 0;  // blocks
-  int height = 0;
-  std::vector<int> photos;      // those that see some of the chart, ascending
-  std::vector<CellView> views;  // [block * photos.size() + k]
-
-  int NumCells() const { return width * height; }
-  const CellView* ViewsOf(int block) const { return &views[block * photos.size()]; }
-};
 
 // The photographs that may see some of the chart, ascending.
 std::vector<int> FindPhotosOfChart(const Chart& chart,

@@ -3,6 +3,7 @@
 #include "invrender/measure/texel_size.h"
 
 #include "invrender/charts/spread_points.h"
+#include "invrender/measure/median.h"
 #include "invrender/measure/texel_blocks.h"
 
 #include <tbb/parallel_for.h>
@@ -14,13 +15,8 @@ namespace groundglass {
 
 void ChooseTexelSizes(const PolygonModel& model,
                       const std::vector<PreparedPhoto>& photos,
-                      const BakeOptions& options,
+                      const PageOptions& options,
                       std::vector<Chart>& charts) {
-  // The share of a chart whose best photograph the texels do not blur.
-  constexpr double kKept = 0.75;
-  // A texel's side in pixels of that photograph: texels as large as pixels, looked up between
-  // pixels and shown between texels, would lose a third of the detail on the way.
-  constexpr double kPixelShare = 0.85;
   const int room = options.max_page_texels - 2 * options.gutter_texels;
   tbb::parallel_for(size_t{0}, charts.size(), [&](size_t index) {
     Chart& chart = charts[index];
@@ -35,19 +31,19 @@ void ChooseTexelSizes(const PolygonModel& model,
       for (const Eigen::Vector3d& point : SpreadPoints(model, face)) {
         double best = 0;
         for (size_t i = 0; i < seeing.size(); ++i) {
-          const auto sighting = photos[seeing[i]].Observe(views[i], chart.PlanePoint(point), face);
-          if (!sighting) continue;
-          best = std::max(best, std::sqrt(std::abs(sighting->px_from_unit.determinant())));
+          const auto observation =
+              photos[seeing[i]].Observe(views[i], chart.PlanePoint(point), face);
+          if (!observation) continue;
+          best = std::max(best, std::sqrt(std::abs(observation->px_from_unit.determinant())));
         }
         if (best > 0) best_resolutions.push_back(best);
       }
     }
     if (best_resolutions.empty()) return;
-    std::sort(best_resolutions.begin(), best_resolutions.end());
     const size_t rank =
-        static_cast<size_t>(kKept * static_cast<double>(best_resolutions.size() - 1));
-    double size =
-        options.texel_size > 0 ? options.texel_size : kPixelShare / best_resolutions[rank];
+        static_cast<size_t>(options.kept_share * static_cast<double>(best_resolutions.size() - 1));
+    double size = options.texel_size > 0 ? options.texel_size
+                                         : options.texel_px / ValueAtRank(best_resolutions, rank);
     size = std::max(size, std::max(chart.width, chart.height) / room);
     chart.SetTexelSize(size);
   });

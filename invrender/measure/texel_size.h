@@ -3,6 +3,7 @@
 #pragma once
 
 #include "invrender/charts/charts.h"
+#include "invrender/inputs/page_options.h"
 #include "invrender/photos/prepared_photo.h"
 
 #include <vector>
@@ -14,7 +15,7 @@ namespace groundglass {
 // get coarser texels. Charts that no photograph shows keep texel_size 0.
 void ChooseTexelSizes(const PolygonModel& model,
                       const std::vector<PreparedPhoto>& photos,
-                      const BakeOptions& options,
+                      const PageOptions& options,
                       std::vector<Chart>& charts);
 
 }  // namespace groundglass

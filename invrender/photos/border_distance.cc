@@ -34,6 +34,80 @@ class FaceDepths {
   std::vector<Plane> planes_;
 };
 
+// Tells creases, where two faces meet between two neighbouring pixels, from occlusions.
+class CreaseTest {
+ public:
+  CreaseTest(const PolygonModel& model, const Camera& camera, const BorderOptions& options)
+      : camera_(camera), depths_(model, camera), depth_share_(options.crease_depth_share) {}
+
+  // The two planes meet between the pixels if their depths differ by no more there than each
+  // changes within two pixels.
+  bool Meet(int first,
+            int second,
+            const Eigen::Vector2d& px,
+            const Eigen::Vector2d& other_px) const {
+    const Eigen::Vector3d ray = UnprojectToCam(camera_, px);
+    const Eigen::Vector3d other = UnprojectToCam(camera_, other_px);
+    const Eigen::Vector3d middle = (ray + other) / 2;
+    const double a = depths_.At(first, middle);
+    const double b = depths_.At(second, middle);
+    const double slope = std::abs(depths_.At(first, ray) - depths_.At(first, other)) +
+                         std::abs(depths_.At(second, ray) - depths_.At(second, other));
+    return std::abs(a - b) <= slope + depth_share_ * std::abs(a);
+  }
+
+ private:
+  const Camera& camera_;
+  FaceDepths depths_;
+  double depth_share_;
+};
+
+// Eighths of a pixel; a pixel beside a border has its centre half a pixel from it.
+constexpr uint8_t kBesideOcclusion = kBorderStepsPerPx / 2;
+
+// The pixels on both sides of each border get their distance to it.
+void MarkBorders(const CreaseTest& creases,
+                 const Image16& labels,
+                 const std::vector<int>& chart_of_face,
+                 const BorderOptions& options,
+                 Image8& border) {
+  const auto beside_crease =
+      static_cast<uint8_t>((0.5 + options.crease_bonus_px) * kBorderStepsPerPx);
+  const auto compare = [&](int x, int y, int other_x, int other_y) {
+    const int first = *labels.At(x, y) - 1;
+    const int second = *labels.At(other_x, other_y) - 1;
+    const bool are_faces = first >= 0 && second >= 0;
+    if (are_faces && chart_of_face[first] == chart_of_face[second]) return;
+    const bool is_crease =
+        are_faces &&
+        creases.Meet(first, second, {x + 0.5, y + 0.5}, {other_x + 0.5, other_y + 0.5});
+    const uint8_t steps = is_crease ? beside_crease : kBesideOcclusion;
+    *border.At(x, y) = std::min(*border.At(x, y), steps);
+    *border.At(other_x, other_y) = std::min(*border.At(other_x, other_y), steps);
+  };
+  for (int y = 0; y < labels.height; ++y) {
+    const uint16_t* row = labels.At(0, y);
+    const uint16_t* below = labels.At(0, std::min(y + 1, labels.height - 1));
+    for (int x = 0; x < labels.width; ++x) {
+      if (x + 1 < labels.width && row[x] != row[x + 1]) compare(x, y, x + 1, y);
+      if (row[x] != below[x]) compare(x, y, x, y + 1);
+    }
+  }
+}
+
+// Pixels without a face, and those to be ignored.
+void SetWhereNothingShows(const Image16& labels,
+                          const Image8& ignored,
+                          uint8_t value,
+                          Image8& border) {
+  for (size_t i = 0; i < labels.values.size(); ++i) {
+    border.values[i] = labels.values[i] == 0 ? value : border.values[i];
+  }
+  for (size_t i = 0; i < ignored.values.size(); ++i) {
+    border.values[i] = ignored.values[i] != 0 ? value : border.values[i];
+  }
+}
+
 // at[x] becomes the least of at[x'] + kSide |x - x'| within the row, for values up to
 // kFarthestBorder: by steps of 1, 2, 4 ... pixels, which compilers turn into vector instructions.
 constexpr int kSide = 8;
@@ -56,7 +130,9 @@ void SpreadAlongRow(int width, uint8_t* at, uint8_t* copy) {
 }
 
 // Every pixel's least sum of a neighbour's value and the way to it, in eighths of a pixel: chamfer
-// distances on 5 x 5 (Borgefors 1986), 3 % off at most. Values end at kFarthestBorder.
+// distances on 5 x 5 (Borgefors 1986), 3 % off at most. Values end at kFarthestBorder, so that a
+// byte holds them and a vector instruction does 16 pixels at once; cv::distanceTransform does one
+// at a time in 32 bits, and knows no sources that start above zero, as creases do.
 void SpreadDistances(Image8& steps) {
   static_assert(kFarthestBorder + kKnight <= 255);
   constexpr int kMargin = 2;  // so that no pixel lacks neighbours
@@ -89,16 +165,14 @@ void SpreadDistances(Image8& steps) {
 }
 
 template <typename Code>
-Image8 FindDarkRim(const Raster<Code>& srgb) {
-  constexpr int kDark = 32 << (8 * (sizeof(Code) - 1));
-  constexpr double kDarkShare = 0.5;  // of a side, to be a mount's
-  constexpr double kDeepest = 0.1;    // of the frame's width
+Image8 FindDarkRim(const Raster<Code>& srgb, const MountOptions& options) {
+  const int dark = options.dark_code << (8 * (sizeof(Code) - 1));
   const int width = srgb.width;
   const int height = srgb.height;
-  const int depth = static_cast<int>(kDeepest * std::min(width, height));
+  const int depth = static_cast<int>(options.deepest_share * std::min(width, height));
   const auto is_dark = [&](int x, int y) {
     const Code* pixel = srgb.At(x, y);
-    return std::max({pixel[0], pixel[1], pixel[2]}) < kDark;
+    return std::max({pixel[0], pixel[1], pixel[2]}) < dark;
   };
   Image8 mount(width, height, 1);
   // From each side inwards, as far as a column (or row) stays dark.
@@ -108,7 +182,7 @@ Image8 FindDarkRim(const Raster<Code>& srgb) {
       const auto [x, y] = position(i, 1);
       num_dark += is_dark(x, y) ? 1 : 0;
     }
-    if (num_dark < kDarkShare * count) return;
+    if (num_dark < options.dark_share * count) return;
     for (int i = 0; i < count; ++i) {
       for (int in = 0; in < depth; ++in) {
         const auto [x, y] = position(i, in);
@@ -124,7 +198,7 @@ Image8 FindDarkRim(const Raster<Code>& srgb) {
   walk(width, [&](int i, int in) { return Position(i, in); });
   walk(width, [&](int i, int in) { return Position(i, height - 1 - in); });
   cv::Mat view(height, width, CV_8U, mount.values.data());
-  const int reach = std::max(2, static_cast<int>(std::lround(0.004 * width)));
+  const int reach = std::max(2, static_cast<int>(std::lround(options.widening_share * width)));
   cv::dilate(view.clone(),
              view,
              cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
@@ -138,58 +212,20 @@ Image8 ComputeBorderDistance(const PolygonModel& model,
                              const Image16& labels,
                              const std::vector<int>& chart_of_face,
                              const Image8& ignored,
-                             double crease_bonus_px) {
-  const int width = labels.width;
-  const int height = labels.height;
-  const FaceDepths depths(model, camera);
-  // Eighths of a pixel; a pixel beside a border has its centre half a pixel from it.
-  constexpr uint8_t kBesideJump = kBorderStepsPerPx / 2;
-  const auto beside_crease = static_cast<uint8_t>((0.5 + crease_bonus_px) * kBorderStepsPerPx);
-  Image8 border(width, height, 1, kFarthestBorder);
-  const auto compare = [&](int x, int y, int other_x, int other_y) {
-    const uint16_t first = *labels.At(x, y);
-    const uint16_t second = *labels.At(other_x, other_y);
-    bool is_crease = false;
-    if (first != 0 && second != 0) {
-      if (chart_of_face[first - 1] == chart_of_face[second - 1]) return;
-      // The two planes meet between the pixels if their depths differ by no more there than each
-      // changes within two pixels.
-      const Eigen::Vector3d ray = UnprojectToCam(camera, {x + 0.5, y + 0.5});
-      const Eigen::Vector3d other = UnprojectToCam(camera, {other_x + 0.5, other_y + 0.5});
-      const Eigen::Vector3d middle = (ray + other) / 2;
-      const double a = depths.At(first - 1, middle);
-      const double b = depths.At(second - 1, middle);
-      const double slope = std::abs(depths.At(first - 1, ray) - depths.At(first - 1, other)) +
-                           std::abs(depths.At(second - 1, ray) - depths.At(second - 1, other));
-      is_crease = std::abs(a - b) <= slope + 0.001 * std::abs(a);
-    }
-    const uint8_t steps = is_crease ? beside_crease : kBesideJump;
-    *border.At(x, y) = std::min(*border.At(x, y), steps);
-    *border.At(other_x, other_y) = std::min(*border.At(other_x, other_y), steps);
-  };
-  for (int y = 0; y < height; ++y) {
-    const uint16_t* row = labels.At(0, y);
-    const uint16_t* below = labels.At(0, std::min(y + 1, height - 1));
-    for (int x = 0; x < width; ++x) {
-      if (x + 1 < width && row[x] != row[x + 1]) compare(x, y, x + 1, y);
-      if (row[x] != below[x]) compare(x, y, x, y + 1);
-    }
-  }
-  const auto cover = [&](uint8_t value) {
-    for (size_t i = 0; i < labels.values.size(); ++i) {
-      border.values[i] = labels.values[i] == 0 ? value : border.values[i];
-    }
-    for (size_t i = 0; i < ignored.values.size(); ++i) {
-      border.values[i] = ignored.values[i] != 0 ? value : border.values[i];
-    }
-  };
-  cover(kBesideJump);
+                             const BorderOptions& options) {
+  Image8 border(labels.width, labels.height, 1, kFarthestBorder);
+  MarkBorders(CreaseTest(model, camera, options), labels, chart_of_face, options, border);
+  SetWhereNothingShows(labels, ignored, kBesideOcclusion, border);
   SpreadDistances(border);
-  cover(0);
+  SetWhereNothingShows(labels, ignored, 0, border);
   return border;
 }
 
-Image8 FindMount(const Image8& srgb8) { return FindDarkRim(srgb8); }
-Image8 FindMount(const Image16& srgb16) { return FindDarkRim(srgb16); }
+Image8 FindMount(const Image8& srgb8, const MountOptions& options) {
+  return FindDarkRim(srgb8, options);
+}
+Image8 FindMount(const Image16& srgb16, const MountOptions& options) {
+  return FindDarkRim(srgb16, options);
+}
 
 }  // namespace groundglass

@@ -3,7 +3,6 @@
 #include "invrender/photos/earlier_model.h"
 
 #include "invrender/charts/spread_points.h"
-#include "invrender/inputs/bake_options.h"
 #include "invrender/photos/face_mask.h"
 
 #include <tbb/parallel_for.h>
@@ -13,11 +12,14 @@
 
 namespace groundglass {
 
-EarlierModel::EarlierModel(const PolygonModel& earlier, const PolygonModel& now)
+EarlierModel::EarlierModel(const PolygonModel& earlier,
+                           const PolygonModel& now,
+                           const EarlierModelOptions& options)
     : earlier_(earlier),
       now_(now),
       visibility_(earlier),
       visibility_now_(now),
+      options_(options),
       tolerance_(std::max(visibility_.DefaultTolerance(), visibility_now_.DefaultTolerance())) {}
 
 std::vector<int> EarlierModel::FindNewFaces() const {
@@ -30,7 +32,7 @@ std::vector<int> EarlierModel::FindNewFaces() const {
           visibility_.FirstHit(point + tolerance_ * normal, -normal, 0, 2 * tolerance_);
       if (!hit || !hit->is_front) return false;
       const Eigen::Vector3d other = ComputeFacePlane(earlier_, hit->face).normal_in_world;
-      return other.dot(normal) > 0.999;
+      return other.dot(normal) > options_.same_normal_cosine;
     });
     if (!was_there) new_faces.push_back(face);
   }

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "invrender/inputs/photo_options.h"
 #include "scene/camera.h"
 #include "scene/image.h"
 #include "scene/polygon_model.h"
@@ -18,7 +19,9 @@ namespace groundglass {
 class EarlierModel {
  public:
   // Both models must outlive this; they share frame and unit.
-  EarlierModel(const PolygonModel& earlier, const PolygonModel& now);
+  EarlierModel(const PolygonModel& earlier,
+               const PolygonModel& now,
+               const EarlierModelOptions& options = {});
 
   // Of the earlier model.
   const Visibility& visibility() const { return visibility_; }
@@ -38,6 +41,7 @@ class EarlierModel {
   const PolygonModel& now_;
   Visibility visibility_;
   Visibility visibility_now_;
+  EarlierModelOptions options_;
   double tolerance_;
 };
 

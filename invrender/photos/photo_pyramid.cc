@@ -2,16 +2,15 @@
 // Part of Groundglass.
 #include "invrender/photos/photo_pyramid.h"
 
+#include "invrender/photos/srgb_codes.h"
 #include "scene/cubic_weights.h"
-#include "scene/formats/image_io.h"
-#include "scene/srgb.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -22,41 +21,14 @@ inline int FloorToInt(double value) {
   return truncated - (value < truncated ? 1 : 0);
 }
 
-// Radiance of each code.
-template <typename Code>
-inline const float* RadianceTable() {
-  constexpr int kNumCodes = std::numeric_limits<Code>::max() + 1;
-  static const std::vector<float> table = [] {
-    std::vector<float> values(kNumCodes);
-    for (int i = 0; i < kNumCodes; ++i) {
-      values[i] = LinearFromSrgb(static_cast<float>(i) / (kNumCodes - 1));
-    }
-    return values;
-  }();
-  return table.data();
-}
-
-constexpr int kEncodeSteps = 16384;
-const uint8_t* EncodeTable() {
-  static const std::vector<uint8_t> table = [] {
-    std::vector<uint8_t> codes(kEncodeSteps + 1);
-    for (int i = 0; i <= kEncodeSteps; ++i) {
-      const float encoded = SrgbFromLinear(static_cast<float>(i) / kEncodeSteps);
-      codes[i] = static_cast<uint8_t>(std::lround(255 * encoded));
-    }
-    return codes;
-  }();
-  return table.data();
-}
-
 template <typename Code>
 Raster<Code> Halve(const Raster<Code>& full) {
   Raster<Code> half(std::max(1, full.width / 2), std::max(1, full.height / 2), 3);
-  const float* radiance = RadianceTable<Code>();
-  const uint8_t* codes = EncodeTable();
-  const auto encode = [codes](float mean) {  // of codes, so from 0 to 1
+  const float* radiance = RadianceOfCodes<Code>();
+  const Srgb8Encoder encode8;
+  const auto encode = [&encode8](float mean) {  // of codes, so from 0 to 1
     if constexpr (sizeof(Code) == 1) {
-      return codes[static_cast<int>(mean * kEncodeSteps + 0.5f)];
+      return encode8.InRange(mean);
     } else {
       return Srgb16FromRadiance(mean);
     }
@@ -90,7 +62,7 @@ std::vector<Raster<Code>> MakeLevels(Raster<Code> full) {
 
 template <typename Code>
 Eigen::Array3f Bicubic(const Raster<Code>& level, double x, double y) {
-  const float* radiance = RadianceTable<Code>();
+  const float* radiance = RadianceOfCodes<Code>();
   const int fx = FloorToInt(x - 0.5);
   const int fy = FloorToInt(y - 0.5);
   const std::array<float, 4> wx = CubicWeights(static_cast<float>(x - 0.5 - fx));
@@ -120,7 +92,7 @@ Eigen::Array3f Bicubic(const Raster<Code>& level, double x, double y) {
 
 template <typename Code>
 Eigen::Array3f Bilinear(const Raster<Code>& level, double x, double y) {
-  const float* radiance = RadianceTable<Code>();
+  const float* radiance = RadianceOfCodes<Code>();
   const int fx = FloorToInt(x - 0.5);
   const int fy = FloorToInt(y - 0.5);
   const float tx = static_cast<float>(x - 0.5 - fx);
@@ -137,44 +109,42 @@ Eigen::Array3f Bilinear(const Raster<Code>& level, double x, double y) {
          ty * ((1 - tx) * at(x0, y1) + tx * at(x1, y1));
 }
 
-// px: footprints no longer than this take one tap.
-constexpr double kMostForOneTap = 1.25;
-
 template <typename Code>
 Eigen::Array3f SampleLevels(const std::vector<Raster<Code>>& levels,
                             const Eigen::Vector2d& image_px,
                             const Eigen::Matrix2d& px_from_texel,
-                            int max_taps,
+                            const SamplingOptions& options,
                             int num_dropped) {
   double a = px_from_texel.col(0).squaredNorm();
   double b = px_from_texel.col(1).squaredNorm();
   // One tap of the finest level will do, as for most texels.
-  const double most = max_taps > 1 ? kMostForOneTap : 1;
+  const double most = options.max_taps > 1 ? options.one_tap_px : 1;
   if (num_dropped == 0 && std::max(a, b) <= most * most) {
     return Bicubic(levels.front(), image_px.x(), image_px.y());
   }
   a = std::sqrt(a);
   b = std::sqrt(b);
-  // A level where both sides need at most max_taps taps; a long thin footprint keeps the level of
-  // its short side as far as four times max_taps allow.
+  // A level where both sides need at most max_taps taps, but for long thin footprints.
   const double longest = std::max(a, b);
-  const double shortest = std::max(std::min(a, b), longest / 4);
+  const double shortest = std::max(std::min(a, b), longest / options.max_anisotropy);
   int level = 0;
   double scale = 1.0 / (1 << num_dropped);
-  while (level + 1 < static_cast<int>(levels.size()) && shortest * scale > max_taps) {
+  while (level + 1 < static_cast<int>(levels.size()) && shortest * scale > options.max_taps) {
     ++level;
     scale /= 2;
   }
   a *= scale;
   b *= scale;
   const auto num_taps = [&](double length) {
-    return std::clamp(static_cast<int>(std::ceil(length - (kMostForOneTap - 1))), 1, 4 * max_taps);
+    const double most_taps = std::ceil(options.max_anisotropy * options.max_taps);
+    return static_cast<int>(
+        std::clamp(std::ceil(length - (options.one_tap_px - 1)), 1.0, most_taps));
   };
   const int num_a = num_taps(a);
   const int num_b = num_taps(b);
   const Raster<Code>& pixels = levels[level];
   if (num_a * num_b == 1) return Bicubic(pixels, image_px.x() * scale, image_px.y() * scale);
-  const bool few = num_a * num_b <= 4;
+  const bool few = num_a * num_b <= options.bicubic_taps;
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   for (int j = 0; j < num_b; ++j) {
     for (int i = 0; i < num_a; ++i) {
@@ -187,25 +157,6 @@ Eigen::Array3f SampleLevels(const std::vector<Raster<Code>>& levels,
 }
 
 }  // namespace
-
-uint8_t Srgb8FromRadiance(float radiance) {
-  uint8_t code = 0;
-  Srgb8FromRadiance({&radiance, 1}, &code);
-  return code;
-}
-
-void Srgb8FromRadiance(std::span<const float> radiance, uint8_t* srgb8) {
-  const uint8_t* codes = EncodeTable();
-  for (const float value : radiance) {
-    *srgb8++ = codes[static_cast<int>(std::clamp(value, 0.0f, 1.0f) * kEncodeSteps + 0.5f)];
-  }
-}
-
-float RadianceFromSrgb8(uint8_t srgb8) { return RadianceTable<uint8_t>()[srgb8]; }
-
-uint16_t Srgb16FromRadiance(float radiance) {
-  return static_cast<uint16_t>(65535 * SrgbFromLinear(radiance) + 0.5f);
-}
 
 PhotoPyramid::PhotoPyramid(Image8 srgb8) : levels8_(MakeLevels(std::move(srgb8))) {}
 PhotoPyramid::PhotoPyramid(Image16 srgb16) : levels16_(MakeLevels(std::move(srgb16))) {}
@@ -229,10 +180,10 @@ size_t PhotoPyramid::NumBytes() const {
 
 Eigen::Array3f PhotoPyramid::Sample(const Eigen::Vector2d& image_px,
                                     const Eigen::Matrix2d& px_from_texel,
-                                    int max_taps) const {
+                                    const SamplingOptions& options) const {
   return levels16_.empty()
-             ? SampleLevels(levels8_, image_px, px_from_texel, max_taps, num_dropped_)
-             : SampleLevels(levels16_, image_px, px_from_texel, max_taps, num_dropped_);
+             ? SampleLevels(levels8_, image_px, px_from_texel, options, num_dropped_)
+             : SampleLevels(levels16_, image_px, px_from_texel, options, num_dropped_);
 }
 
 }  // namespace groundglass

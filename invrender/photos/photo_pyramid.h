@@ -2,16 +2,21 @@
 // Part of Groundglass.
 #pragma once
 
+#include "invrender/inputs/sampling_options.h"
 #include "scene/image.h"
 
 #include <Eigen/Dense>
 
-#include <span>
+#include <cstddef>
 #include <vector>
 
 namespace groundglass {
 
-// A photograph and its halvings, kept as sRGB of 8 or 16 bits, filtered in linear light.
+// One tap, at the level where the footprint is a pixel.
+inline constexpr SamplingOptions kOneTap = {.max_taps = 1};
+
+// A photograph and its halvings (a mipmap), kept as sRGB of 8 or 16 bits, filtered in linear light.
+// (cv::pyrDown filters codes; of light it would need floats, which take four times the memory.)
 class PhotoPyramid {
  public:
   explicit PhotoPyramid(Image8 srgb8);
@@ -22,11 +27,11 @@ class PhotoPyramid {
   void DropLevels(int num_dropped);
 
   // The mean radiance of the parallelogram centred at image_px and spanned by the columns of
-  // px_from_texel: one texel's footprint. Taps are bicubic (Catmull-Rom; Keys 1981, a = -1/2), no
-  // more than max_taps along each side; coarser levels serve larger footprints.
+  // px_from_texel: one texel's footprint. Taps are bicubic (Catmull-Rom; Keys 1981, a = -1/2);
+  // coarser levels serve larger footprints.
   Eigen::Array3f Sample(const Eigen::Vector2d& image_px,
                         const Eigen::Matrix2d& px_from_texel,
-                        int max_taps = 4) const;
+                        const SamplingOptions& options = {}) const;
 
   int bits() const { return levels16_.empty() ? 8 : 16; }
   // The finest level that is kept.
@@ -40,12 +45,5 @@ class PhotoPyramid {
   std::vector<Image16> levels16_;
   int num_dropped_ = 0;
 };
-
-// Radiance to 8-bit sRGB, rounded; values are clamped to [0, 1].
-uint8_t Srgb8FromRadiance(float radiance);
-void Srgb8FromRadiance(std::span<const float> radiance, uint8_t* srgb8);
-uint16_t Srgb16FromRadiance(float radiance);
-// 8-bit sRGB to radiance.
-float RadianceFromSrgb8(uint8_t srgb8);
 
 }  // namespace groundglass

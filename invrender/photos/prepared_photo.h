@@ -3,7 +3,8 @@
 #pragma once
 
 #include "invrender/charts/charts.h"
-#include "invrender/inputs/bake_options.h"
+#include "invrender/inputs/bake_photograph.h"
+#include "invrender/inputs/photo_options.h"
 #include "invrender/photos/earlier_model.h"
 #include "invrender/photos/photo_cache.h"
 #include "invrender/photos/visibility_map.h"
@@ -47,18 +48,19 @@ struct MaskDetail {
   // How often its sides are halved; masks painted by hand stay as they are.
   int num_halvings = 0;
   // Only what the model says: neither pixels nor masks of what to ignore are read, and
-  // BakeOptions::on_face_mask is not called.
+  // PhotoContext::on_face_mask is not called.
   bool is_survey = false;
 };
 
 // What all photographs of a bake are prepared with; it must outlive them, but for `options`.
-struct PhotoSurroundings {
+struct PhotoContext {
   const PolygonModel& model;
   const Visibility& visibility;
   const EarlierModel* earlier;  // if the model has changed since; nullptr if not
   const std::vector<int>& chart_of_face;
-  const BakeOptions& options;
+  const PhotoOptions& options;
   PhotoCache& cache;
+  FaceMaskObserver on_face_mask = {};  // gets the automatic mask, if it is set
 };
 
 // What of a photograph is to be looked at.
@@ -75,7 +77,7 @@ class PreparedPhoto {
   // Made by PreparePhoto. `index` is the photograph's in the cache.
   PreparedPhoto(const BakePhotograph& photograph,
                 int index,
-                const PhotoSurroundings& surroundings,
+                const PhotoContext& context,
                 const PhotoMask& mask);
 
   ChartInCamera View(const Chart& chart, int chart_index) const;
@@ -90,14 +92,14 @@ class PreparedPhoto {
   Eigen::Vector2d Locate(const ChartInCamera& view, const Eigen::Vector2d& plane_point) const;
 
   // Larger is better: px for one model unit, lowered near borders; 0 is worthless.
-  double Quality(const SurfaceObservation& sighting) const;
+  double Quality(const SurfaceObservation& observation) const;
 
   std::shared_ptr<const PhotoPyramid> Pixels() const { return cache_.Get(index_); }
   // What they take when decoded: a third more than three codes a pixel.
   double NumPixelBytes() const {
     return 0.5 * cache_.bits() * camera_.width_px * camera_.height_px;
   }
-  const VisibilityMap& Mask() const { return sight_map_; }
+  const VisibilityMap& Mask() const { return visibility_map_; }
 
   // Squared distance from the image's centre, 1 at the corners: vignetting's argument.
   double RadiusSquared(const Eigen::Vector2d& image_px) const {
@@ -120,8 +122,8 @@ class PreparedPhoto {
   Eigen::Vector2d StepInside(const Eigen::Vector2d& image_px, int chart_index) const;
 
   VisibilityMap::Pixel PixelAt(const Eigen::Vector2d& image_px) const {
-    return sight_map_.At(static_cast<int>(image_px.x() * mask_from_image_),
-                         static_cast<int>(image_px.y() * mask_from_image_));
+    return visibility_map_.At(static_cast<int>(image_px.x() * mask_from_image_),
+                              static_cast<int>(image_px.y() * mask_from_image_));
   }
 
   const Visibility& visibility_;
@@ -133,23 +135,23 @@ class PreparedPhoto {
   Eigen::Vector3d position_in_world_;
   Eigen::Vector2d half_size_px_;
   double weight_ = 1;
+  PhotoOptions options_;
   double frame_margin_px_ = 0;
-  double border_margin_px_ = 0;
   double tolerance_ = 0;
   bool is_hand_painted_ = false;
   int mask_side_ = 1;           // pixels of the image along a side of the mask's
   double mask_from_image_ = 1;  // 1 / mask_side_
-  double crease_bonus_px_ = 0;  // of the mask
+  BorderOptions borders_;       // in the mask's pixels
   std::vector<char> allowed_;
   std::vector<bool> is_shown_;
-  VisibilityMap sight_map_;
+  VisibilityMap visibility_map_;
 };
 
 // Reads the image and the masks; throws Error if they do not fit the camera. Hands the automatic
-// face mask to BakeOptions::on_face_mask. `index` is the photograph's in the cache.
+// face mask to PhotoContext::on_face_mask. `index` is the photograph's in the cache.
 PreparedPhoto PreparePhoto(const BakePhotograph& photograph,
                            int index,
-                           const PhotoSurroundings& surroundings,
+                           const PhotoContext& context,
                            const MaskDetail& detail);
 
 }  // namespace groundglass

@@ -11,6 +11,7 @@
 namespace groundglass {
 namespace {
 
+// What the program takes, measured; none of it decides what a texel looks like.
 constexpr double kMegabyte = 1e6;
 // The program and its libraries, before it has read anything.
 constexpr double kProgramBytes = 200 * kMegabyte;
@@ -23,25 +24,10 @@ constexpr double kWideChartBytes = 6;
 constexpr double kChartBytes = 31;
 // Choosing, for each block and photograph.
 constexpr double kChoiceBytes = 56;
-// Decoded photographs: all of them, as far as this share of the limit goes, but at least a few.
-constexpr double kPhotoShare = 0.3;
-constexpr double kFewPhotos = 3;
 // A band of a chart's texels with their look-ups.
 constexpr double kBandBytes = 80 * kMegabyte;
-// Texels this much longer are no texture any more.
-constexpr double kLargestScale = 8;
-
-// Photographs and masks are kept at an eighth of their sides at least.
-constexpr int kMostHalvings = 3;
 // What reading, masking and writing the mask of a photograph take for a pixel, in 8 bits.
 constexpr double kReadingBytes = 12;
-// Texels this much longer are a fair price for photographs that are at hand.
-constexpr double kWorthDropping = 1.15;
-// Masks may become coarser where texels become shorter by this much.
-constexpr double kWorthHalving = 1.1;
-// What is foretold of masks may be wrong by this much.
-constexpr double kForetelling = 1.3;
-
 // A chart and how many photographs see it.
 struct SeenChart {
   double width = 0;  // texels of the size that the photographs allow
@@ -63,14 +49,14 @@ std::vector<SeenChart> CountViews(const std::vector<Chart>& charts,
   return seen;
 }
 
-double NumCells(double width_texels, double height_texels) {
-  return (std::floor(width_texels / kCellTexels) + 1) *
-         (std::floor(height_texels / kCellTexels) + 1);
+double NumBlocks(double width_texels, double height_texels) {
+  return (std::floor(width_texels / kBlockTexels) + 1) *
+         (std::floor(height_texels / kBlockTexels) + 1);
 }
 
 double WorkBytes(double width_texels, double height_texels, double num_views, int bits) {
   return width_texels * height_texels * (kChartBytes + (bits == 16 ? kWideChartBytes : 0)) +
-         NumCells(width_texels, height_texels) * num_views * kChoiceBytes;
+         NumBlocks(width_texels, height_texels) * num_views * kChoiceBytes;
 }
 
 // What pages, blocks and the largest chart at work take, with texels so many times as long.
@@ -81,46 +67,27 @@ struct ChartsBytes {
 };
 ChartsBytes BytesAtScale(const std::vector<SeenChart>& charts,
                          double scale,
-                         const BakeOptions& options) {
-  const double page_bytes = kPageBytes + (options.bits == 16 ? kWidePageBytes : 0);
-  const double gutters = 2 * options.gutter_texels;
+                         const PageOptions& pages) {
+  const double page_bytes = kPageBytes + (pages.bits == 16 ? kWidePageBytes : 0);
+  const double gutters = 2 * pages.gutter_texels;
   ChartsBytes bytes;
   for (const SeenChart& chart : charts) {
     const double width = std::ceil(chart.width / scale);
     const double height = std::ceil(chart.height / scale);
     bytes.all += (width + gutters) * (height + gutters) * page_bytes +
-                 NumCells(width, height) * chart.num_views * sizeof(CellView);
-    bytes.largest =
-        std::max(bytes.largest, WorkBytes(width, height, chart.num_views, options.bits));
+                 NumBlocks(width, height) * chart.num_views * sizeof(BlockView);
+    bytes.largest = std::max(bytes.largest, WorkBytes(width, height, chart.num_views, pages.bits));
   }
   return bytes;
-}
-
-// The least scale with which the charts take no more; above kLargestScale if there is none.
-double FitScale(const std::vector<SeenChart>& charts,
-                double at_least,
-                double num_bytes,
-                const BakeOptions& options) {
-  const auto fits = [&](double scale) {
-    return BytesAtScale(charts, scale, options).Sum() <= num_bytes;
-  };
-  if (fits(at_least)) return at_least;
-  if (!fits(kLargestScale)) return 2 * kLargestScale;
-  double low = at_least;
-  double high = kLargestScale;
-  for (int i = 0; i < 12; ++i) {
-    const double middle = std::sqrt(low * high);
-    (fits(middle) ? high : low) = middle;
-  }
-  return high;
 }
 
 class Planner {
  public:
   Planner(const std::vector<Chart>& charts,
           const std::vector<PreparedPhoto>& photos,
-          const BakeOptions& options)
-      : options_(options), limit_(options.max_memory_mb * kMegabyte) {
+          const PageOptions& pages,
+          const MemoryOptions& options)
+      : pages_(pages), options_(options), limit_(options.max_memory_mb * kMegabyte) {
     charts_ = CountViews(charts, photos);
     for (const PreparedPhoto& photo : photos) {
       all_photos_ += photo.NumPixelBytes();
@@ -129,38 +96,41 @@ class Planner {
     largest_reading_ = largest_photo_ / 4 * kReadingBytes;
   }
 
-  double least() const { return least_; }
-  double limit() const { return limit_; }
-
-  // With masks and photographs that coarse; a scale above kLargestScale if that does not fit.
+  // With masks and photographs that coarse; a scale above max_texel_scale if that does not fit.
   MemoryPlan Try(int num_dropped, int mask_halvings, double mask_bytes) {
     const double shrink = std::pow(4.0, num_dropped);
     const double kept = all_photos_ / shrink;
     const double fixed = kProgramBytes + mask_bytes;
     // Even photographs of which only coarse levels are kept are decoded whole, on each core.
     const double decoding = num_dropped > 0 ? kDecodedAtOnce * largest_photo_ : 0;
-    const double photos =
-        std::min(kept, std::max(kPhotoShare * limit_, kFewPhotos * largest_photo_ / shrink));
+    const double photos = std::min(
+        kept,
+        std::max(options_.photo_share * limit_, options_.few_photos * largest_photo_ / shrink));
     const double taken = fixed + std::max(largest_reading_, kBandBytes + decoding + photos);
     MemoryPlan plan;
     plan.num_dropped = num_dropped;
     plan.mask_halvings = mask_halvings;
     const double left = limit_ - taken;
-    plan.texel_scale = FitScale(charts_, std::pow(2.0, num_dropped), left, options_);
-    least_ = std::min(least_, taken + BytesAtScale(charts_, kLargestScale, options_).Sum());
-    if (plan.texel_scale > kLargestScale) return plan;
-    const ChartsBytes charts = BytesAtScale(charts_, plan.texel_scale, options_);
+    plan.texel_scale = FitScale(std::pow(2.0, num_dropped), left);
+    least_ =
+        std::min(least_, taken + BytesAtScale(charts_, options_.max_texel_scale, pages_).Sum());
+    if (!IsTexture(plan)) return plan;
+    const ChartsBytes charts = BytesAtScale(charts_, plan.texel_scale, pages_);
     plan.chart_bytes = static_cast<size_t>(charts.largest);
     // One more is in memory while it takes another's place.
-    const double for_photos = std::min(kept, kPhotoShare * limit_) + left - charts.Sum();
+    const double for_photos = std::min(kept, options_.photo_share * limit_) + left - charts.Sum();
     plan.photo_bytes = static_cast<size_t>(std::max(0.0, for_photos - largest_photo_ / shrink));
     plan.num_at_once = static_cast<int>(
         std::clamp((limit_ - fixed - std::min(kept, for_photos)) / largest_reading_, 1.0, 64.0));
     return plan;
   }
 
+  // Whether texels stay short enough to be one.
+  bool IsTexture(const MemoryPlan& plan) const {
+    return plan.texel_scale <= options_.max_texel_scale;
+  }
   bool AllFit(int num_dropped) const {
-    return all_photos_ / std::pow(4.0, num_dropped) <= kPhotoShare * limit_;
+    return all_photos_ / std::pow(4.0, num_dropped) <= options_.photo_share * limit_;
   }
 
   Error TooLittle() const {
@@ -171,7 +141,24 @@ class Planner {
   }
 
  private:
-  const BakeOptions& options_;
+  // The least scale with which the charts take no more; above max_texel_scale if there is none.
+  double FitScale(double at_least, double num_bytes) const {
+    const auto fits = [&](double scale) {
+      return BytesAtScale(charts_, scale, pages_).Sum() <= num_bytes;
+    };
+    if (fits(at_least)) return at_least;
+    if (!fits(options_.max_texel_scale)) return 2 * options_.max_texel_scale;
+    double low = at_least;
+    double high = options_.max_texel_scale;
+    for (int i = 0; i < 12; ++i) {
+      const double middle = std::sqrt(low * high);
+      (fits(middle) ? high : low) = middle;
+    }
+    return high;
+  }
+
+  const PageOptions& pages_;
+  const MemoryOptions& options_;
   double limit_;
   std::vector<SeenChart> charts_;
   double all_photos_ = 0;
@@ -182,7 +169,9 @@ class Planner {
 
 }  // namespace
 
-double EstimateMaskBytes(const std::vector<PreparedPhoto>& survey, int num_halvings) {
+double EstimateMaskBytes(const std::vector<PreparedPhoto>& survey,
+                         int num_halvings,
+                         const MemoryOptions& options) {
   // Tiles become four times as many with each doubling, those that a border crosses twice.
   const double finer = std::pow(2.0, kSurveyHalvings - num_halvings);
   double sum = 0;
@@ -191,8 +180,9 @@ double EstimateMaskBytes(const std::vector<PreparedPhoto>& survey, int num_halvi
     if (photo.IsHandPainted()) {
       sum += static_cast<double>(mask.NumBytes());
     } else {
-      sum += kForetelling * (finer * finer * static_cast<double>(mask.NumTileBytes()) +
-                             finer * static_cast<double>(mask.NumBytes() - mask.NumTileBytes()));
+      sum += options.mask_estimate_factor *
+             (finer * finer * static_cast<double>(mask.NumTileBytes()) +
+              finer * static_cast<double>(mask.NumBytes() - mask.NumTileBytes()));
     }
   }
   return sum;
@@ -200,43 +190,45 @@ double EstimateMaskBytes(const std::vector<PreparedPhoto>& survey, int num_halvi
 
 MemoryPlan PlanMemory(const std::vector<Chart>& charts,
                       const std::vector<PreparedPhoto>& survey,
-                      const BakeOptions& options) {
-  Planner planner(charts, survey, options);
-  const int most_dropped = options.texel_size == 0 ? kMostHalvings : 0;
+                      const PageOptions& pages,
+                      const MemoryOptions& options) {
+  Planner planner(charts, survey, pages, options);
+  const int most_dropped = pages.texel_size == 0 ? options.max_halvings : 0;
   MemoryPlan plan;
-  plan.texel_scale = 2 * kLargestScale;
+  plan.texel_scale = 2 * options.max_texel_scale;
   for (int num_dropped = 0; num_dropped <= most_dropped; ++num_dropped) {
     if (num_dropped > 0 && planner.AllFit(num_dropped - 1)) break;  // they fit as they are
     MemoryPlan best;
-    for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
+    for (int halvings = 0; halvings <= options.max_halvings; ++halvings) {
       const MemoryPlan next =
-          planner.Try(num_dropped, halvings, EstimateMaskBytes(survey, halvings));
-      if (halvings == 0 || kWorthHalving * next.texel_scale < best.texel_scale) best = next;
+          planner.Try(num_dropped, halvings, EstimateMaskBytes(survey, halvings, options));
+      if (halvings == 0 || options.worth_halving * next.texel_scale < best.texel_scale) best = next;
     }
     // A little is worth having all photographs at hand.
-    if (best.texel_scale <= kWorthDropping * plan.texel_scale) plan = best;
+    if (best.texel_scale <= options.worth_dropping * plan.texel_scale) plan = best;
   }
-  if (plan.texel_scale > kLargestScale) throw planner.TooLittle();
+  if (!planner.IsTexture(plan)) throw planner.TooLittle();
   return plan;
 }
 
 MemoryPlan RevisePlan(const MemoryPlan& plan,
                       const std::vector<Chart>& charts,
                       const std::vector<PreparedPhoto>& photos,
-                      const BakeOptions& options) {
-  Planner planner(charts, photos, options);
+                      const PageOptions& pages,
+                      const MemoryOptions& options) {
+  Planner planner(charts, photos, pages, options);
   double mask_bytes = 0;
   for (const PreparedPhoto& photo : photos) {
     mask_bytes += static_cast<double>(photo.Mask().NumBytes());
   }
   const MemoryPlan revised = planner.Try(plan.num_dropped, plan.mask_halvings, mask_bytes);
-  if (revised.texel_scale > kLargestScale) throw planner.TooLittle();
+  if (!planner.IsTexture(revised)) throw planner.TooLittle();
   return revised;
 }
 
-size_t ChartBytes(const Chart& chart, size_t num_views, const BakeOptions& options) {
-  return static_cast<size_t>(WorkBytes(
-      chart.width_texels, chart.height_texels, static_cast<double>(num_views), options.bits));
+size_t ChartBytes(const Chart& chart, size_t num_views, int bits) {
+  return static_cast<size_t>(
+      WorkBytes(chart.width_texels, chart.height_texels, static_cast<double>(num_views), bits));
 }
 
 }  // namespace groundglass

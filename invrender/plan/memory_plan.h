@@ -3,7 +3,8 @@
 #pragma once
 
 #include "invrender/charts/charts.h"
-#include "invrender/inputs/bake_options.h"
+#include "invrender/inputs/memory_options.h"
+#include "invrender/inputs/page_options.h"
 #include "invrender/photos/prepared_photo.h"
 
 #include <cstddef>
@@ -24,29 +25,35 @@ struct MemoryPlan {
 // Masks whose sides are halved so often are quickly made, and tell what finer ones would take.
 constexpr int kSurveyHalvings = 2;
 
-// What all masks would take after so many halvings, from those of a survey; rather more than less.
-double EstimateMaskBytes(const std::vector<PreparedPhoto>& survey, int num_halvings);
+// What all masks would take after so many halvings, from those of a survey; rather more than less
+// (mask_estimate_factor).
+double EstimateMaskBytes(const std::vector<PreparedPhoto>& survey,
+                         int num_halvings,
+                         const MemoryOptions& options = {});
 
 // A bake's plan before the work: from a survey (MaskDetail) with kSurveyHalvings, what masks of
 // each coarseness would take; and what the pages, the blocks and the largest chart at work take.
 // The rest is for decoded photographs, which come and go; where that is too little for a few of
 // them at once, texels become larger. Where texels become twice as long or more and photographs do
-// not fit all at once, they are kept at half their size or less, if options.texel_size does not ask
-// for a certain one. Masks become coarser where that saves a tenth of the texels' length. The
-// charts have their texel sizes. Throws Error if options.max_memory_mb is below what any bake of
-// these photographs needs.
+// not fit all at once, they are kept at half their size or less, if pages.texel_size does not ask
+// for a certain one. Masks become coarser where that is worth it (worth_halving). The charts have
+// their texel sizes. Throws Error if options.max_memory_mb is below what any bake of these
+// photographs needs.
 MemoryPlan PlanMemory(const std::vector<Chart>& charts,
                       const std::vector<PreparedPhoto>& survey,
-                      const BakeOptions& options);
+                      const PageOptions& pages,
+                      const MemoryOptions& options);
 
 // The same once the masks are made as `plan` says: its texel_scale, photo_bytes and chart_bytes
 // follow from what they really take.
 MemoryPlan RevisePlan(const MemoryPlan& plan,
                       const std::vector<Chart>& charts,
                       const std::vector<PreparedPhoto>& photos,
-                      const BakeOptions& options);
+                      const PageOptions& pages,
+                      const MemoryOptions& options);
 
 // What a chart that so many photographs see takes while it is laid out, beside its place on a page.
-size_t ChartBytes(const Chart& chart, size_t num_views, const BakeOptions& options);
+// bits: PageOptions::bits.
+size_t ChartBytes(const Chart& chart, size_t num_views, int bits);
 
 }  // namespace groundglass

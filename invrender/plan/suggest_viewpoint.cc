@@ -12,9 +12,9 @@ namespace groundglass {
 std::optional<Eigen::Vector3d> SuggestViewpoint(const PolygonModel& model,
                                                 const Visibility& visibility,
                                                 int face,
-                                                const Eigen::Vector3d& target_in_world) {
-  constexpr double kEyeLevelFt = 5.5;
-  const double eye = kEyeLevelFt * kMetresPerFoot / MetresPerUnit(model.unit);
+                                                const Eigen::Vector3d& target_in_world,
+                                                const ViewpointOptions& options) {
+  const double eye = options.eye_level_ft * kMetresPerFoot / MetresPerUnit(model.unit);
   double lowest = 1e300;
   for (const Eigen::Vector3d& point : model.points_in_world) lowest = std::min(lowest, point.z());
   double size = 0;
@@ -24,14 +24,14 @@ std::optional<Eigen::Vector3d> SuggestViewpoint(const PolygonModel& model,
   const Eigen::Vector3d normal = ComputeFacePlane(model, face).normal_in_world;
   const double tolerance = visibility.DefaultTolerance();
   for (const bool at_eye_level : {true, false}) {
-    for (const double turn_deg : {0.0, 20.0, -20.0, 40.0, -40.0, 60.0, -60.0}) {
-      for (const double distance : {1.5 * size, 3 * size, 0.75 * size}) {
+    for (const double turn_deg : options.turns_deg) {
+      for (const double sizes : options.distances) {
         const Eigen::AngleAxisd turn(turn_deg * M_PI / 180, Eigen::Vector3d::UnitZ());
-        Eigen::Vector3d stand = target_in_world + distance * (turn * normal);
+        Eigen::Vector3d stand = target_in_world + sizes * size * (turn * normal);
         if (at_eye_level) stand.z() = lowest + eye;
         const Eigen::Vector3d from_target = stand - target_in_world;
         if (stand.z() < lowest + eye - tolerance) continue;
-        if (from_target.normalized().dot(normal) < 0.3) continue;
+        if (from_target.normalized().dot(normal) < options.least_cosine) continue;
         if (visibility.IsClear(stand, target_in_world, tolerance)) return stand;
       }
     }

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "invrender/inputs/coverage_options.h"
 #include "scene/polygon_model.h"
 #include "scene/visibility.h"
 
@@ -12,11 +13,13 @@
 namespace groundglass {
 
 // From where a place on a face could be photographed: before the face, as square to it as can be,
-// as far as the face is large, with nothing of the model between; at eye level (5.5 ft above the
-// model's lowest point) if that works. Nothing if every such place is hidden or under the ground.
+// as far as the face is large, with nothing of the model between; at eye level above
+// the model's lowest point if that works. Nothing if every such place is hidden or under the
+// ground.
 std::optional<Eigen::Vector3d> SuggestViewpoint(const PolygonModel& model,
                                                 const Visibility& visibility,
                                                 int face,
-                                                const Eigen::Vector3d& target_in_world);
+                                                const Eigen::Vector3d& target_in_world,
+                                                const ViewpointOptions& options = {});
 
 }  // namespace groundglass

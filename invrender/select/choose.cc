@@ -13,21 +13,21 @@ namespace groundglass {
 namespace {
 
 // The colours of one block in the photographs that see it.
-struct CellColours {
+struct BlockColours {
   const ConsistencyOptions& options;
   std::vector<size_t> seen;  // k
   std::vector<Eigen::Array3f> colours;
   std::vector<float> votes;
   float best_quality = 0;
 
-  explicit CellColours(const ConsistencyOptions& consistency_options)
+  explicit BlockColours(const ConsistencyOptions& consistency_options)
       : options(consistency_options) {}
   void Set(const ChartBlocks& blocks, int block, int chart, const ColourModel& colour) {
     seen.clear();
     colours.clear();
     votes.clear();
     best_quality = 0;
-    const CellView* views = blocks.ViewsOf(block);
+    const BlockView* views = blocks.ViewsOf(block);
     for (size_t k = 0; k < blocks.photos.size(); ++k) {
       if (views[k].quality <= 0) continue;
       const int photo = blocks.photos[k];
@@ -41,35 +41,35 @@ struct CellColours {
   }
   float Difference(size_t i, size_t j) const {
     const float squared = (colours[i] - colours[j]).square().mean();
-    return std::min(options.largest_dissent,
+    return std::min(options.max_inconsistency,
                     squared / (options.ordinary_difference * options.ordinary_difference));
   }
 };
 
 // What colours the chart has where photographs agree.
-ColourHistogram LearnPalette(const ChartBlocks& blocks,
+ColourHistogram LearnColours(const ChartBlocks& blocks,
                              int chart,
                              const ColourModel& colour,
                              const ConsistencyOptions& options) {
-  ColourHistogram palette(options.palette);
-  CellColours cell_colours(options);
-  for (int block = 0; block < blocks.NumCells(); ++block) {
-    cell_colours.Set(blocks, block, chart, colour);
-    const size_t count = cell_colours.seen.size();
+  ColourHistogram histogram(options.histogram);
+  BlockColours block_colours(options);
+  for (int block = 0; block < blocks.NumBlocks(); ++block) {
+    block_colours.Set(blocks, block, chart, colour);
+    const size_t count = block_colours.seen.size();
     for (size_t i = 0; i < count; ++i) {
       int num_agreeing = 0;
       for (size_t j = 0; j < count; ++j) {
-        num_agreeing += j != i && cell_colours.Difference(i, j) <= options.agreeing ? 1 : 0;
+        num_agreeing += j != i && block_colours.Difference(i, j) <= options.agreeing ? 1 : 0;
       }
-      if (num_agreeing > 0) palette.Add(cell_colours.colours[i], num_agreeing);
+      if (num_agreeing > 0) histogram.Add(block_colours.colours[i], num_agreeing);
     }
   }
-  return palette;
+  return histogram;
 }
 
-// Mean over the neighbours within `reach` blocks that have a value (0 or more) for the same
+// Mean over the neighbours within `radius` blocks that have a value (0 or more) for the same
 // photograph; -1 stays -1. (Not cv::boxFilter: it keeps running sums, whose last bits differ.)
-std::vector<float> Smooth(const ChartBlocks& blocks, const std::vector<float>& values, int reach) {
+std::vector<float> Smooth(const ChartBlocks& blocks, const std::vector<float>& values, int radius) {
   const size_t num_photos = blocks.photos.size();
   const auto index = [&](int x, int y, size_t k) {
     return (static_cast<size_t>(y) * blocks.width + x) * num_photos + k;
@@ -78,7 +78,7 @@ std::vector<float> Smooth(const ChartBlocks& blocks, const std::vector<float>& v
   std::vector<std::array<float, 2>> rows(values.size(), {0, 0});
   for (int y = 0; y < blocks.height; ++y) {
     for (int x = 0; x < blocks.width; ++x) {
-      for (int i = std::max(0, x - reach); i <= std::min(blocks.width - 1, x + reach); ++i) {
+      for (int i = std::max(0, x - radius); i <= std::min(blocks.width - 1, x + radius); ++i) {
         for (size_t k = 0; k < num_photos; ++k) {
           const float value = values[index(i, y, k)];
           if (value < 0) continue;
@@ -95,7 +95,7 @@ std::vector<float> Smooth(const ChartBlocks& blocks, const std::vector<float>& v
         if (values[index(x, y, k)] < 0) continue;
         float sum = 0;
         float count = 0;
-        for (int j = std::max(0, y - reach); j <= std::min(blocks.height - 1, y + reach); ++j) {
+        for (int j = std::max(0, y - radius); j <= std::min(blocks.height - 1, y + radius); ++j) {
           sum += rows[index(x, j, k)][0];
           count += rows[index(x, j, k)][1];
         }
@@ -137,15 +137,15 @@ void VoteByRegion(const ChartBlocks& blocks,
                   const ConsistencyOptions& options,
                   std::vector<float>& inconsistency) {
   const size_t num_photos = blocks.photos.size();
-  std::vector<char> is_open(blocks.NumCells(), 0);  // disputed, not yet in a region
-  for (int block = 0; block < blocks.NumCells(); ++block) {
+  std::vector<char> is_open(blocks.NumBlocks(), 0);  // disputed, not yet in a region
+  for (int block = 0; block < blocks.NumBlocks(); ++block) {
     float most = -1;
     for (size_t k = 0; k < num_photos; ++k)
       most = std::max(most, consensus[block * num_photos + k]);
     is_open[block] = most >= 0 && most < options.majority;
   }
   std::vector<int> region;
-  for (int start = 0; start < blocks.NumCells(); ++start) {
+  for (int start = 0; start < blocks.NumBlocks(); ++start) {
     if (!is_open[start]) continue;
     TakeRegion(blocks, start, is_open, region);
     long num_views = 0;
@@ -159,7 +159,7 @@ void VoteByRegion(const ChartBlocks& blocks,
       float sum = 0;
       for (const int block : region) {
         const float value = inconsistency[block * num_photos + k];
-        sum += value < 0 ? options.largest_dissent : value;
+        sum += value < 0 ? options.max_inconsistency : value;
       }
       const float mean = weight * sum / static_cast<float>(region.size());
       for (const int block : region) {
@@ -170,54 +170,54 @@ void VoteByRegion(const ChartBlocks& blocks,
   }
 }
 
-// How little the others and the palette speak for each view of a block, with the surroundings' say;
-// -1 where nobody else sees the block.
+// How little the others and the histogram speak for each view of a block, with the surroundings'
+// say; -1 where nobody else sees the block.
 std::vector<float> MeasureCost(const ChartBlocks& blocks,
                                int chart,
                                const ColourModel& colour,
                                const ConsistencyOptions& options) {
   const size_t num_photos = blocks.photos.size();
-  ColourHistogram palette = LearnPalette(blocks, chart, colour, options);
+  ColourHistogram histogram = LearnColours(blocks, chart, colour, options);
   std::vector<float> cost(blocks.views.size(), -1);
-  CellColours cell_colours(options);
-  for (int block = 0; block < blocks.NumCells(); ++block) {
-    cell_colours.Set(blocks, block, chart, colour);
-    const size_t count = cell_colours.seen.size();
+  BlockColours block_colours(options);
+  for (int block = 0; block < blocks.NumBlocks(); ++block) {
+    block_colours.Set(blocks, block, chart, colour);
+    const size_t count = block_colours.seen.size();
     if (count < 2) continue;
     for (size_t i = 0; i < count; ++i) {
       float sum = 0;
       float votes = 0;
       for (size_t j = 0; j < count; ++j) {
         if (j == i) continue;
-        sum += cell_colours.votes[j] * cell_colours.Difference(i, j);
-        votes += cell_colours.votes[j];
+        sum += block_colours.votes[j] * block_colours.Difference(i, j);
+        votes += block_colours.votes[j];
       }
-      cost[block * num_photos + cell_colours.seen[i]] =
+      cost[block * num_photos + block_colours.seen[i]] =
           sum / votes +
-          options.palette_weight * palette.NegativeLogLikelihood(cell_colours.colours[i]) +
-          options.blur_weight * std::log(cell_colours.best_quality /
-                                         blocks.ViewsOf(block)[cell_colours.seen[i]].quality);
+          options.histogram_weight * histogram.NegativeLogLikelihood(block_colours.colours[i]) +
+          options.blur_weight * std::log(block_colours.best_quality /
+                                         blocks.ViewsOf(block)[block_colours.seen[i]].quality);
     }
   }
-  return Smooth(blocks, cost, options.cost_reach);
+  return Smooth(blocks, cost, options.cost_radius);
 }
 
 // Squared difference of each view to the consensus, in units of what is ordinary; -1 where nobody
 // else sees the block. The consensus is the view that costs least.
-std::vector<float> MeasureDissent(const ChartBlocks& blocks,
-                                  int chart,
-                                  const ColourModel& colour,
-                                  const ConsistencyOptions& options) {
+std::vector<float> MeasureInconsistency(const ChartBlocks& blocks,
+                                        int chart,
+                                        const ColourModel& colour,
+                                        const ConsistencyOptions& options) {
   const size_t num_photos = blocks.photos.size();
   const std::vector<float> cost = MeasureCost(blocks, chart, colour, options);
-  CellColours cell_colours(options);
+  BlockColours block_colours(options);
   std::vector<float> inconsistency(blocks.views.size(), -1);
   std::vector<float> consensus(blocks.views.size(), -1);
-  for (int block = 0; block < blocks.NumCells(); ++block) {
-    cell_colours.Set(blocks, block, chart, colour);
-    const size_t count = cell_colours.seen.size();
+  for (int block = 0; block < blocks.NumBlocks(); ++block) {
+    block_colours.Set(blocks, block, chart, colour);
+    const size_t count = block_colours.seen.size();
     if (count < 2) continue;
-    const size_t* seen = cell_colours.seen.data();
+    const size_t* seen = block_colours.seen.data();
     size_t middle = 0;
     for (size_t i = 1; i < count; ++i) {
       if (cost[block * num_photos + seen[i]] < cost[block * num_photos + seen[middle]]) middle = i;
@@ -225,16 +225,16 @@ std::vector<float> MeasureDissent(const ChartBlocks& blocks,
     float agreeing = 0;
     float all = 0;
     for (size_t i = 0; i < count; ++i) {
-      const float difference = cell_colours.Difference(i, middle);
+      const float difference = block_colours.Difference(i, middle);
       inconsistency[block * num_photos + seen[i]] = difference;
       if (i == middle) continue;
-      all += cell_colours.votes[i];
-      if (difference < options.agreeing) agreeing += cell_colours.votes[i];
+      all += block_colours.votes[i];
+      if (difference < options.agreeing) agreeing += block_colours.votes[i];
     }
     for (size_t i = 0; i < count; ++i) consensus[block * num_photos + seen[i]] = agreeing / all;
   }
-  inconsistency = Smooth(blocks, inconsistency, options.dissent_reach);
-  VoteByRegion(blocks, Smooth(blocks, consensus, options.consensus_reach), options, inconsistency);
+  inconsistency = Smooth(blocks, inconsistency, options.inconsistency_radius);
+  VoteByRegion(blocks, Smooth(blocks, consensus, options.consensus_radius), options, inconsistency);
   return inconsistency;
 }
 
@@ -247,7 +247,7 @@ std::vector<float> MeasureConsistency(const ChartBlocks& blocks,
   const size_t num_photos = blocks.photos.size();
   std::vector<float> consistency(blocks.views.size(), 1);
   if (num_photos < 2) return consistency;
-  const std::vector<float> inconsistency = MeasureDissent(blocks, chart, colour, options);
+  const std::vector<float> inconsistency = MeasureInconsistency(blocks, chart, colour, options);
   for (size_t i = 0; i < inconsistency.size(); ++i) {
     if (inconsistency[i] > 0) consistency[i] = std::exp(-inconsistency[i]);
     consistency[i] *=
@@ -262,10 +262,10 @@ void PreferSharp(const ChartBlocks& blocks,
                  const ConsistencyOptions& options,
                  std::vector<float>& consistency) {
   const size_t num_photos = blocks.photos.size();
-  for (int block = 0; block < blocks.NumCells(); ++block) {
-    const CellView* views = blocks.ViewsOf(block);
+  for (int block = 0; block < blocks.NumBlocks(); ++block) {
+    const BlockView* views = blocks.ViewsOf(block);
     const auto num_seeing = std::count_if(
-        views, views + num_photos, [](const CellView& view) { return view.quality > 0; });
+        views, views + num_photos, [](const BlockView& view) { return view.quality > 0; });
     if (num_seeing < options.fewest_to_compare) continue;
     for (size_t k = 0; k < num_photos; ++k) {
       consistency[block * num_photos + k] *= static_cast<float>(sharpness[blocks.photos[k]].factor);
@@ -276,10 +276,10 @@ void PreferSharp(const ChartBlocks& blocks,
 ChartChoice ChooseBlocks(const ChartBlocks& blocks, std::vector<float> consistency) {
   const size_t num_photos = blocks.photos.size();
   ChartChoice choice;
-  choice.best.assign(blocks.NumCells(), -1);
+  choice.best.assign(blocks.NumBlocks(), -1);
   choice.consistency = std::move(consistency);
-  for (int block = 0; block < blocks.NumCells(); ++block) {
-    const CellView* views = blocks.ViewsOf(block);
+  for (int block = 0; block < blocks.NumBlocks(); ++block) {
+    const BlockView* views = blocks.ViewsOf(block);
     float best = 0;
     for (size_t k = 0; k < num_photos; ++k) {
       const float score = views[k].quality * choice.consistency[block * num_photos + k];

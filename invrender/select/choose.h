@@ -4,8 +4,8 @@
 
 #include "invrender/colour/colour.h"
 #include "invrender/inputs/consistency_options.h"
+#include "invrender/measure/chart_blocks.h"
 #include "invrender/measure/sharpness.h"
-#include "invrender/measure/texel_blocks.h"
 #include "invrender/select/chart_choice.h"
 
 #include <vector>
@@ -26,7 +26,7 @@ void PreferSharp(const ChartBlocks& blocks,
                  const ConsistencyOptions& options,
                  std::vector<float>& consistency);
 
-// Picks by resolution, angle and distance to borders (CellView::quality), times consistency.
+// Picks by resolution, angle and distance to borders (BlockView::quality), times consistency.
 ChartChoice ChooseBlocks(const ChartBlocks& blocks, std::vector<float> consistency);
 
 }  // namespace groundglass

@@ -19,12 +19,12 @@ uint64_t ColourHistogram::Bin(const Eigen::Array3f& log_radiance, int dx, int dy
 void ColourHistogram::Add(const Eigen::Array3f& log_radiance, double count) {
   counts_[Bin(log_radiance, 0, 0, 0)] += count;
   total_ += count;
-  surprises_.clear();
+  cache_.clear();
 }
 
 float ColourHistogram::NegativeLogLikelihood(const Eigen::Array3f& log_radiance) {
   if (total_ < options_.fewest_counts) return 0;
-  const auto [known, is_new] = surprises_.try_emplace(Bin(log_radiance, 0, 0, 0), 0.0f);
+  const auto [known, is_new] = cache_.try_emplace(Bin(log_radiance, 0, 0, 0), 0.0f);
   if (!is_new) return known->second;
   double count = 0;
   for (int dx = -1; dx <= 1; ++dx) {
@@ -39,7 +39,7 @@ float ColourHistogram::NegativeLogLikelihood(const Eigen::Array3f& log_radiance)
   known->second = std::clamp(
       static_cast<float>(-std::log((share + options_.unseen_share) / options_.ordinary_share)),
       0.0f,
-      options_.most_surprise);
+      options_.max_negative_log_likelihood);
   return known->second;
 }
 

@@ -4,7 +4,7 @@
 
 #include "invrender/colour/colour.h"
 #include "invrender/inputs/seam_options.h"
-#include "invrender/measure/texel_blocks.h"
+#include "invrender/measure/chart_blocks.h"
 #include "invrender/select/chart_choice.h"
 
 namespace groundglass {

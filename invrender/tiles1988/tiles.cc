@@ -2,7 +2,9 @@
 // Part of Groundglass.
 #include "invrender/tiles1988/tiles.h"
 
+#include "invrender/photos/face_mask.h"
 #include "invrender/photos/prepared_photo.h"
+#include "invrender/photos/srgb_codes.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/formats/ignore_mask.h"
@@ -12,7 +14,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 namespace groundglass {
@@ -83,8 +84,7 @@ Image16 MakeTileLabels(const PolygonModel& model,
 ImageF ReadCoarse(const BakePhotograph& photograph, int side) {
   const Image8 fine = ReadSrgb8(photograph.image_file);
   CheckFitsCamera(photograph.image_file, fine.width, fine.height, photograph.camera);
-  std::array<float, 256> radiance;
-  for (int i = 0; i < 256; ++i) radiance[i] = LinearFromSrgb(static_cast<float>(i) / 255.0f);
+  const float* radiance = RadianceOfCodes<uint8_t>();
   ImageF coarse(fine.width / side, fine.height / side, 3);
   tbb::parallel_for(0, coarse.height, [&](int y) {
     for (int x = 0; x < coarse.width; ++x) {
@@ -158,10 +158,10 @@ void MakeTiles(const PolygonModel& model,
 
   // False for a face that is seen edge-on or from behind, as one painted by hand may be.
   const auto place = [&](int x, int y, const FacePlane& plane, TileCorner& corner) {
-    const Eigen::Vector3d sight = UnprojectToWorld(camera, {x + 0.5, y + 0.5});
-    const double towards = plane.normal_in_world.dot(sight);
+    const Eigen::Vector3d ray = UnprojectToWorld(camera, {x + 0.5, y + 0.5});
+    const double towards = plane.normal_in_world.dot(ray);
     const double distance = (plane.offset - plane.normal_in_world.dot(eye)) / towards;
-    const Eigen::Vector3f site = SiteFromWorld(eye + distance * sight).cast<float>();
+    const Eigen::Vector3f site = SiteFromWorld(eye + distance * ray).cast<float>();
     const float* rgb = codes.At(x, y);
     corner = {site.x(), site.y(), site.z(), rgb[0], rgb[1], rgb[2]};
     return towards < 0 && distance > 0;

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/inputs/bake_options.h"
+#include "invrender/inputs/bake_photograph.h"
 #include "scene/formats/tile_file.h"
 #include "scene/polygon_model.h"
 #include "scene/visibility.h"

@@ -9,9 +9,11 @@
 #include "scene/formats/scene_folder.h"
 #include "viewer/renderer.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace groundglass {
@@ -22,28 +24,59 @@ struct Variant {
   BakeOptions options;
 };
 
+// Stages that leave things as they are, or do them more simply.
+std::vector<float> BelieveAll(const ChartBlocks& blocks,
+                              int,
+                              const ColourModel&,
+                              const ConsistencyOptions&) {
+  return std::vector<float>(blocks.views.size(), 1);
+}
+ColourModel KeepColours(const std::vector<ChartBlocks>& blocks,
+                        size_t num_photos,
+                        const ColourOptions&) {
+  return MakeNeutralColour(blocks, num_photos);
+}
+// The photograph that shows most of a chart, wherever it shows it, as in the thesis.
+ChartChoice OneForEachChart(const ChartBlocks& blocks, std::vector<float> consistency) {
+  std::vector<double> shown(blocks.photos.size(), 0);
+  for (size_t i = 0; i < blocks.views.size(); ++i) {
+    shown[i % shown.size()] += blocks.views[i].quality * consistency[i];
+  }
+  ChartChoice choice = ChooseBlocks(blocks, std::move(consistency));
+  const auto best = static_cast<int>(std::max_element(shown.begin(), shown.end()) - shown.begin());
+  for (int block = 0; block < blocks.NumBlocks(); ++block) {
+    if (choice.best[block] >= 0 && blocks.ViewsOf(block)[best].quality > 0) {
+      choice.best[block] = best;
+    }
+  }
+  return choice;
+}
+
 std::vector<Variant> MakeVariants() {
   std::vector<Variant> variants;
-  variants.push_back({"everything", {}});
-  variants.push_back({"photographs' own colours", {}});
-  variants.back().options.match_colour = false;
-  variants.push_back({"no consensus", {}});
-  variants.back().options.reject_occluders = false;
-  variants.push_back({"neither", {}});
-  variants.back().options.match_colour = false;
-  variants.back().options.reject_occluders = false;
-  variants.push_back({"all photographs as sharp", {}});
-  variants.back().options.judge_sharpness = false;
-  variants.push_back({"grain", {}});
-  variants.back().options.smooth_grain = false;
-  variants.push_back({"hard seams where they fall", {}});
-  variants.back().options.smooth_seams = false;
-  variants.push_back({"no margin at borders", {}});
-  variants.back().options.border_margin_px = 0;
-  variants.push_back({"no search for mounts", {}});
-  variants.back().options.detect_mount = false;
-  variants.push_back({"gaps painted over", {}});
-  variants.back().options.fill_gaps = true;
+  const auto add = [&](const std::string& name) -> BakeOptions& {
+    return variants.emplace_back(Variant{name, {}}).options;
+  };
+  add("everything");
+  // Occluders are still told by matched colours.
+  add("photographs' own colours").match_colour = false;
+  add("no colours matched at all").stages.estimate_colour = KeepColours;
+  add("no consensus").stages.measure_consistency = BelieveAll;
+  BakeOptions& neither = add("neither");
+  neither.match_colour = false;
+  neither.stages.measure_consistency = BelieveAll;
+  add("all photographs as sharp").stages.measure_sharpness = [](auto&&...) {
+    return std::vector<Sharpness>();
+  };
+  add("grain").stages.smooth_grain = [](auto&&...) {};
+  add("one photograph for a chart").stages.choose_blocks = OneForEachChart;
+  add("seams where they fall").stages.smooth_seams = [](auto&&...) {};
+  BakeOptions& hard = add("hard seams where they fall");
+  hard.stages.smooth_seams = [](auto&&...) {};
+  hard.blend.across_seams = false;
+  add("no margin at borders").photos.border_margin_px = 0;
+  add("no search for mounts").photos.detect_mount = false;
+  add("gaps painted over").fill_gaps = true;
   return variants;
 }
 

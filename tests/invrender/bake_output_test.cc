@@ -77,7 +77,7 @@ TEST(WriteBake, SixteenBitsInAreSixteenBitsOut) {
   BakeOptions options;
   options.fill_gaps = true;
   options.match_colour = false;
-  options.bits = 16;
+  options.pages.bits = 16;
   WriteBake(BakeTextures(model, photographs, options), folder / "out", ".tif");
   // Read back as another program would: places from the OBJ, codes from the picture.
   const Image16 page = ReadSrgb16(folder / "out" / "model_0.tif");

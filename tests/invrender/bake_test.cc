@@ -166,7 +166,7 @@ TEST(BakeTextures, FinePhotographsAreAveragedIntoCoarseTexels) {
   const std::vector<BakePhotograph> photographs = {
       PhotographPainted(model, camera, checks, folder.path(), "fine")};
   BakeOptions options = Plain();
-  options.texel_size = 1;
+  options.pages.texel_size = 1;
   const BakeResult result = BakeTextures(model, photographs, options);
   for (const PlacedTexel& texel : TexelsOf(result.model, wall)) {
     if (texel.source == 0) continue;
@@ -322,8 +322,8 @@ TEST(BakeTextures, SmallPagesAreManyAndHoldEverything) {
   const std::vector<BakePhotograph> photographs = {
       PhotographPainted(model, camera, kWaves, folder.path(), "s1")};
   BakeOptions options = Plain();
-  options.max_page_texels = 256;
-  options.texel_size = 0.06;
+  options.pages.max_page_texels = 256;
+  options.pages.texel_size = 0.06;
   const BakeResult result = BakeTextures(model, photographs, options);
   EXPECT_GT(result.model.pages.size(), 1u);
   for (const TexturePage& page : result.model.pages) {
@@ -354,7 +354,7 @@ TEST(BakeTextures, UnfitInputIsNamed) {
   EXPECT_THAT(ThrownMessage([&] { BakeTextures(model, std::vector{photograph}); }),
               testing::HasSubstr("faces.png: names face 7, but the model has 1"));
   BakeOptions options;
-  options.max_page_texels = 10;
+  options.pages.max_page_texels = 10;
   EXPECT_THAT(ThrownMessage([&] { BakeTextures(model, {}, options); }),
               testing::HasSubstr("max_page_texels"));
 }

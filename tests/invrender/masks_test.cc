@@ -4,6 +4,7 @@
 #include "invrender/photos/border_distance.h"
 #include "invrender/photos/face_mask.h"
 #include "invrender/photos/photo_pyramid.h"
+#include "invrender/photos/srgb_codes.h"
 #include "invrender/photos/visibility_map.h"
 #include "scene/formats/colmap_io.h"
 #include "scene/formats/image_io.h"
@@ -136,18 +137,19 @@ TEST(PhotoPyramid, KeepsAConstantAndFindsPixelCentresExactly) {
   *image.At(11, 7) = 200;
   const PhotoPyramid pyramid(image);
   const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
-  EXPECT_NEAR(pyramid.Sample({11.5, 7.5}, one)[0], RadianceFromSrgb8(200), 1e-6);
-  EXPECT_NEAR(pyramid.Sample({11.5, 7.5}, one)[1], RadianceFromSrgb8(77), 1e-6);
-  EXPECT_NEAR(pyramid.Sample({25.2, 18.9}, 9 * one)[0], RadianceFromSrgb8(77), 1e-3);
+  EXPECT_NEAR(pyramid.Sample({11.5, 7.5}, one)[0], RadianceOfCodes<uint8_t>()[200], 1e-6);
+  EXPECT_NEAR(pyramid.Sample({11.5, 7.5}, one)[1], RadianceOfCodes<uint8_t>()[77], 1e-6);
+  EXPECT_NEAR(pyramid.Sample({25.2, 18.9}, 9 * one)[0], RadianceOfCodes<uint8_t>()[77], 1e-3);
   // Half a pixel beside it, the bright pixel is one of the two in the middle: 9/16.
   const float expected =
-      RadianceFromSrgb8(77) + 0.5625f * (RadianceFromSrgb8(200) - RadianceFromSrgb8(77));
+      RadianceOfCodes<uint8_t>()[77] +
+      0.5625f * (RadianceOfCodes<uint8_t>()[200] - RadianceOfCodes<uint8_t>()[77]);
   EXPECT_NEAR(pyramid.Sample({12.0, 7.5}, one)[0], expected, 1e-6);
 }
 
 TEST(Srgb8FromRadiance, InvertsEveryCode) {
   for (int code = 0; code < 256; ++code) {
-    EXPECT_EQ(Srgb8FromRadiance(RadianceFromSrgb8(static_cast<uint8_t>(code))), code);
+    EXPECT_EQ(Srgb8FromRadiance(RadianceOfCodes<uint8_t>()[code]), code);
   }
 }
 
@@ -183,7 +185,7 @@ TEST(BakeTextures, WhiteInAMaskIsIgnored) {
   // Texels as large as the camera's pixels, and as fine as the bake chooses: the same area is open.
   for (const double texel_size : {24.0 / 280, 0.0}) {
     BakeOptions options;
-    options.texel_size = texel_size;
+    options.pages.texel_size = texel_size;
     const BakeResult result = BakeTextures(wall.model, std::vector{wall.photograph}, options);
     const double px_of_texel = result.coverage.faces[0].texel_size * 280 / 24;
     double open_px = 0;

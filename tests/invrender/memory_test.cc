@@ -41,7 +41,7 @@ struct Corner {
 TEST(Memory, ALimitThatSufficesChangesNoTexel) {
   const Corner corner;
   BakeOptions limited;
-  limited.max_memory_mb = 300;
+  limited.memory.max_memory_mb = 300;
   const BakeResult free = BakeTextures(corner.model, corner.photographs);
   const BakeResult bound = BakeTextures(corner.model, corner.photographs, limited);
   EXPECT_EQ(bound.texel_scale, 1);
@@ -56,8 +56,8 @@ TEST(Memory, ALimitThatSufficesChangesNoTexel) {
 TEST(Memory, WhereThePagesWouldBeTooLargeTexelsAreLarger) {
   const Corner corner;
   BakeOptions options;
-  options.texel_size = 0.01;
-  options.max_memory_mb = 300;
+  options.pages.texel_size = 0.01;
+  options.memory.max_memory_mb = 300;
   const BakeResult result = BakeTextures(corner.model, corner.photographs, options);
   EXPECT_GT(result.texel_scale, 1.2);
   for (const FaceCoverage& face : result.coverage.faces) {
@@ -65,7 +65,7 @@ TEST(Memory, WhereThePagesWouldBeTooLargeTexelsAreLarger) {
     EXPECT_GT(face.covered_area, 0.5 * face.area);
   }
   // With more memory, finer texels again.
-  options.max_memory_mb = 350;
+  options.memory.max_memory_mb = 350;
   EXPECT_LT(BakeTextures(corner.model, corner.photographs, options).texel_scale,
             result.texel_scale - 0.2);
 }
@@ -73,11 +73,11 @@ TEST(Memory, WhereThePagesWouldBeTooLargeTexelsAreLarger) {
 TEST(Memory, ALimitThatNothingCanHoldIsAnError) {
   const Corner corner;
   BakeOptions options;
-  options.max_memory_mb = 50;
+  options.memory.max_memory_mb = 50;
   EXPECT_THAT(ThrownMessage([&] { BakeTextures(corner.model, corner.photographs, options); }),
               testing::MatchesRegex(
                   "these photographs need at least [0-9]+ MB of memory, the limit is 50"));
-  options.max_memory_mb = -1;
+  options.memory.max_memory_mb = -1;
   EXPECT_THAT(ThrownMessage([&] { BakeTextures(corner.model, corner.photographs, options); }),
               testing::HasSubstr("max_memory_mb"));
 }
@@ -101,7 +101,7 @@ struct LargeBrick {
         charts(MakeCharts(model)),
         chart_of_face(ChartOfFace(charts, model.faces.size())),
         cache({}, 0) {
-    options.detect_mount = false;
+    options.photos.detect_mount = false;
     WriteSrgb8(folder / "grey.jpg", Image8(kWidth, kHeight, 3, 90));
     const std::vector<NamedCamera> cameras = ReadColmapModel(Brick() + "/truth/cameras");
     for (int i = 0; i < num_photographs; ++i) {
@@ -117,7 +117,7 @@ struct LargeBrick {
   PreparedPhoto Prepare(int index, const MaskDetail& detail) {
     return PreparePhoto(photographs[index],
                         index,
-                        {model, visibility, nullptr, chart_of_face, options, cache},
+                        {model, visibility, nullptr, chart_of_face, options.photos, cache},
                         detail);
   }
   std::vector<PreparedPhoto> Survey() {
@@ -130,7 +130,7 @@ struct LargeBrick {
   }
 };
 
-TEST(Memory, MasksTakeNoMoreThanASurveyForetells) {
+TEST(Memory, MasksTakeNoMoreThanASurveyEstimates) {
   LargeBrick brick(2);
   const std::vector<PreparedPhoto> survey = brick.Survey();
   for (int halvings = 0; halvings <= 3; ++halvings) {
@@ -139,9 +139,9 @@ TEST(Memory, MasksTakeNoMoreThanASurveyForetells) {
       num_bytes +=
           static_cast<double>(brick.Prepare(i, {.num_halvings = halvings}).Mask().NumBytes());
     }
-    const double foretold = EstimateMaskBytes(survey, halvings);
-    EXPECT_LE(num_bytes, foretold) << halvings;
-    EXPECT_GE(num_bytes, 0.4 * foretold) << halvings;
+    const double estimate = EstimateMaskBytes(survey, halvings);
+    EXPECT_LE(num_bytes, estimate) << halvings;
+    EXPECT_GE(num_bytes, 0.4 * estimate) << halvings;
     // A pixel takes less than a byte even where it is finest.
     EXPECT_LT(num_bytes, 2.0 * LargeBrick::kWidth * LargeBrick::kHeight);
   }
@@ -181,11 +181,11 @@ TEST(Memory, CoarseMasksSeeWhatFineOnesSee) {
 TEST(Memory, MasksBecomeCoarserWhereTexelsWouldElseBecomeMuchLarger) {
   LargeBrick brick(60);
   const std::vector<PreparedPhoto> survey = brick.Survey();
-  brick.options.texel_size = 0.2;  // so large that only masks and photographs matter
-  ChooseTexelSizes(brick.model, survey, brick.options, brick.charts);
+  brick.options.pages.texel_size = 0.2;  // so large that only masks and photographs matter
+  ChooseTexelSizes(brick.model, survey, brick.options.pages, brick.charts);
   const auto plan = [&](int max_memory_mb) {
-    brick.options.max_memory_mb = max_memory_mb;
-    return PlanMemory(brick.charts, survey, brick.options);
+    brick.options.memory.max_memory_mb = max_memory_mb;
+    return PlanMemory(brick.charts, survey, brick.options.pages, brick.options.memory);
   };
   int limit = 1000;
   ASSERT_EQ(plan(limit).mask_halvings, 0);

@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
+#include "invrender/bake_options.h"
 #include "invrender/charts/charts.h"
-#include "invrender/inputs/bake_options.h"
 #include "invrender/photos/prepared_photo.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
@@ -33,10 +33,11 @@ struct PreparedWall {
     charts[0].SetTexelSize(0.125);
     charts[0].page = 0;
     for (size_t i = 0; i < photographs.size(); ++i) {
-      photos.push_back(PreparePhoto(photographs[i],
-                                    static_cast<int>(i),
-                                    {model, visibility, nullptr, chart_of_face, options, cache},
-                                    MaskDetail()));
+      photos.push_back(
+          PreparePhoto(photographs[i],
+                       static_cast<int>(i),
+                       {model, visibility, nullptr, chart_of_face, options.photos, cache},
+                       MaskDetail()));
     }
   }
 

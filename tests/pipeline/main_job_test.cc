@@ -39,7 +39,7 @@ Scene CopySmallScene(const fs::path& folder) {
 MainJobOptions QuickOptions() {
   MainJobOptions options;
   options.registering.max_width_px = 600;
-  options.baking.max_page_texels = 512;
+  options.baking.pages.max_page_texels = 512;
   options.num_stills = 1;
   return options;
 }
@@ -197,7 +197,7 @@ TEST(MainJob, TellsWhatIsWrongBeforeItTouchesAnything) {
   options.page_format = "bmp";
   EXPECT_THAT(message(options), HasSubstr("page_format must be jpg, png, tif or exr, not bmp"));
   options = {};
-  options.baking.bits = 16;
+  options.baking.pages.bits = 16;
   EXPECT_THAT(message(options), HasSubstr("page_format must be png, tif or exr with 16 bits"));
   options = {};
   options.registering.max_width_px = 1;

@@ -64,7 +64,8 @@ TEST(MatchColour, ExposureAndWhiteBalanceAreEvenedOutAlongAChainOfPhotographs) {
   EXPECT_GE(num_compared, 2);
   BakeOptions options;
   options.match_colour = false;
-  options.smooth_seams = false;
+  options.stages.smooth_seams = [](auto&&...) {};
+  options.blend.across_seams = false;
   const std::vector<Eigen::Array3f> raw =
       MeanErrors(BakeTextures(model, photographs, options).model, wall, 4);
   EXPECT_NEAR(raw[1][0], std::log(0.6), 0.02);
@@ -232,11 +233,11 @@ TEST(RejectOccluders, WindowOnWhichNoTwoAgreeIsTakenFromWhoShowsItBest) {
 }
 
 TEST(ColourHistogram, KnownColoursDoNotSurprise) {
-  ColourHistogram palette;
-  EXPECT_EQ(palette.NegativeLogLikelihood(Eigen::Array3f(-1, -1, -1)), 0);
-  for (int i = 0; i < 1000; ++i) palette.Add(Eigen::Array3f(-1 + 0.0002f * i, -1.5f, -2));
-  EXPECT_EQ(palette.NegativeLogLikelihood(Eigen::Array3f(-0.9f, -1.5f, -2)), 0);
-  EXPECT_GT(palette.NegativeLogLikelihood(Eigen::Array3f(-3, -0.1f, -0.1f)), 5);
+  ColourHistogram histogram;
+  EXPECT_EQ(histogram.NegativeLogLikelihood(Eigen::Array3f(-1, -1, -1)), 0);
+  for (int i = 0; i < 1000; ++i) histogram.Add(Eigen::Array3f(-1 + 0.0002f * i, -1.5f, -2));
+  EXPECT_EQ(histogram.NegativeLogLikelihood(Eigen::Array3f(-0.9f, -1.5f, -2)), 0);
+  EXPECT_GT(histogram.NegativeLogLikelihood(Eigen::Array3f(-3, -0.1f, -0.1f)), 5);
 }
 
 TEST(SelectPhotographs, RejectedAreLeftOutAndReviewWeighsLess) {

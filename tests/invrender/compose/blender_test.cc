@@ -24,23 +24,29 @@ class BlendedWall : public testing::Test {
   static constexpr int kMiddle = 16;  // a row far from borders
 
   BlendedWall() {
-    for (int block = 0; block < blocks_.NumCells(); ++block) {
-      choice_.best.push_back(block % kColumns < kSeam / kCellTexels ? 0 : 1);
+    for (int block = 0; block < blocks_.NumBlocks(); ++block) {
+      choice_.best.push_back(block % kColumns < kSeam / kBlockTexels ? 0 : 1);
     }
     choice_.consistency.assign(blocks_.views.size(), 1);
   }
-  Blender Make(bool smooth_seams = true) const {
-    return {{wall_.charts[0], 0, texels_, wall_.photos, blocks_, choice_},
-            options_,
-            wall_.options.border_margin_px,
-            smooth_seams};
+  Blender Make() const { return Make(options_); }
+  Blender Make(const BlendOptions& options) const {
+    return {{wall_.charts[0],
+             0,
+             texels_,
+             wall_.photos,
+             wall_.options.photos.border_margin_px,
+             blocks_,
+             choice_},
+            options};
   }
   // Weights by k.
   static std::map<int, double> Weights(const Blender& blender, int x, int y) {
-    std::vector<Contribution> ingredients;
-    blender.Gather(x, y, ingredients);
+    std::vector<Contribution> contributions;
+    blender.Gather(x, y, contributions);
     std::map<int, double> weights;
-    for (const Contribution& ingredient : ingredients) weights[ingredient.k] = ingredient.weight;
+    for (const Contribution& contribution : contributions)
+      weights[contribution.k] = contribution.weight;
     return weights;
   }
 
@@ -72,7 +78,9 @@ TEST_F(BlendedWall, WeightsChangeEvenlyAcrossASeam) {
 }
 
 TEST_F(BlendedWall, HardSeamsTakeTheBlocksOwn) {
-  const Blender blender = Make(false);
+  BlendOptions hard;
+  hard.across_seams = false;
+  const Blender blender = Make(hard);
   EXPECT_EQ(Weights(blender, kSeam - 1, kMiddle), (std::map<int, double>{{0, 1.0}}));
   EXPECT_EQ(Weights(blender, kSeam, kMiddle), (std::map<int, double>{{1, 1.0}}));
 }
@@ -99,14 +107,13 @@ TEST_F(BlendedWall, RunsEndAtSeamsBordersAndTheChartsEnd) {
   ASSERT_EQ(texels.width(), 200);
   const ChartBlocks blocks = MakeBlocks(40, 20, 2);
   ChartChoice choice;
-  for (int block = 0; block < blocks.NumCells(); ++block) {
+  for (int block = 0; block < blocks.NumBlocks(); ++block) {
     choice.best.push_back(block % 40 < 20 ? 0 : 1);
   }
   choice.consistency.assign(blocks.views.size(), 1);
-  const Blender blender({fine, 0, texels, wall_.photos, blocks, choice},
-                        options_,
-                        wall_.options.border_margin_px,
-                        true);
+  const Blender blender(
+      {fine, 0, texels, wall_.photos, wall_.options.photos.border_margin_px, blocks, choice},
+      options_);
   std::array<SurfaceObservation, Blender::kRunTexels> run;
   std::vector<int> chosen;
   blender.ChooseRow(50, chosen);
@@ -124,7 +131,7 @@ TEST_F(BlendedWall, GoodTexelsHaveAWeightyPhotographBeyondTheMargin) {
   const Blender blender = Make();
   const auto is_good = [&](double weight, double border_px) {
     Contribution contribution{0, weight, true, {}};
-    contribution.sighting.border_px = border_px;
+    contribution.observation.border_px = border_px;
     return blender.IsGood({contribution});
   };
   EXPECT_TRUE(is_good(0.31, 2));
@@ -135,13 +142,13 @@ TEST_F(BlendedWall, GoodTexelsHaveAWeightyPhotographBeyondTheMargin) {
 // A pixel's diagonal is 0.0707 units; margin and reach are three of them, 1.7 texels.
 TEST_F(BlendedWall, ReachIsTheMarginInTexels) {
   const Blender blender = Make();
-  SurfaceObservation sighting;
-  sighting.px_from_unit = 20 * Eigen::Matrix2d::Identity();
-  EXPECT_EQ(blender.ReachFromBorder(sighting), 3);
-  sighting.px_from_unit = 0.01 * Eigen::Matrix2d::Identity();
-  EXPECT_EQ(blender.ReachFromBorder(sighting), 32);
-  sighting.px_from_unit.setZero();
-  EXPECT_EQ(blender.ReachFromBorder(sighting), 1);
+  SurfaceObservation observation;
+  observation.px_from_unit = 20 * Eigen::Matrix2d::Identity();
+  EXPECT_EQ(blender.ReachFromBorder(observation), 3);
+  observation.px_from_unit = 0.01 * Eigen::Matrix2d::Identity();
+  EXPECT_EQ(blender.ReachFromBorder(observation), 32);
+  observation.px_from_unit.setZero();
+  EXPECT_EQ(blender.ReachFromBorder(observation), 1);
 }
 
 }  // namespace

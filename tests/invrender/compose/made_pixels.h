@@ -2,7 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
-#include "invrender/compose/compose.h"
+#include "invrender/compose/chart_pixels.h"
+#include "scene/textured_model.h"
 
 #include <algorithm>
 #include <string>

@@ -100,19 +100,20 @@ std::vector<Patch> LookAt(const PolygonModel& model,
   const BakeOptions options;
   std::vector<PreparedPhoto> photos;
   for (size_t i = 0; i < photographs.size(); ++i) {
-    photos.push_back(PreparePhoto(photographs[i],
-                                  static_cast<int>(i),
-                                  {model, visibility, nullptr, chart_of_face, options, cache},
-                                  MaskDetail()));
+    photos.push_back(
+        PreparePhoto(photographs[i],
+                     static_cast<int>(i),
+                     {model, visibility, nullptr, chart_of_face, options.photos, cache},
+                     MaskDetail()));
   }
-  return SamplePatches(model, charts, photos);
+  return SamplePatches(model, charts, photos, options.patches);
 }
 
 std::vector<PlacedTexel> BakeWall(const PolygonModel& model,
                                   const std::vector<BakePhotograph>& photographs,
                                   bool smooth_grain) {
   BakeOptions options;
-  options.smooth_grain = smooth_grain;
+  if (!smooth_grain) options.stages.smooth_grain = [](auto&&...) {};
   return TexelsOf(BakeTextures(model, photographs, options).model, 0);
 }
 
@@ -269,7 +270,9 @@ TEST_F(Blurred, IsMeasuredByComparison) {
 TEST_F(Blurred, IsHardlyPrintedWhereSharpOnesShowThePlace) {
   const auto share = [&](bool judge_sharpness) {
     BakeOptions options;
-    options.judge_sharpness = judge_sharpness;
+    if (!judge_sharpness) {
+      options.stages.measure_sharpness = [](auto&&...) { return std::vector<Sharpness>(); };
+    }
     const BakeResult bake = BakeTextures(model_, photographs_, options);
     const std::vector<PlacedTexel> texels = TexelsOf(bake.model, 0);
     const auto blurred = std::count_if(

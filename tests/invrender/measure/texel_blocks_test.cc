@@ -28,7 +28,7 @@ TEST(ObserveBlocks, GivesEachBlockItsColourInEachPhotograph) {
   EXPECT_EQ(blocks[0].width, 13);  // of 64 x 32 texels, five a side
   EXPECT_EQ(blocks[0].height, 7);
   EXPECT_EQ(blocks[0].photos, (std::vector<int>{0, 1}));
-  const CellView* middle = blocks[0].ViewsOf(3 * 13 + 6);
+  const BlockView* middle = blocks[0].ViewsOf(3 * 13 + 6);
   EXPECT_NEAR(middle[0].log_radiance[1], std::log(0.2), 0.02);
   EXPECT_NEAR(middle[1].log_radiance[1], std::log(0.4), 0.02);
   for (int k = 0; k < 2; ++k) {
@@ -42,7 +42,7 @@ TEST(ObserveBlocks, AreNotUsableAtBordersOrWhereBurntOutOrBlack) {
   const PreparedWall wall({CameraBefore(4), CameraBefore(4), CameraBefore(4)},
                           {0.2f, 0.99f, 0.0005f});
   const std::vector<ChartBlocks> blocks = ObserveBlocks(wall.model, wall.charts, wall.photos, {});
-  const CellView* middle = blocks[0].ViewsOf(3 * 13 + 6);
+  const BlockView* middle = blocks[0].ViewsOf(3 * 13 + 6);
   EXPECT_TRUE(middle[0].is_usable);
   EXPECT_FALSE(middle[1].is_usable);
   EXPECT_FALSE(middle[2].is_usable);
@@ -64,7 +64,7 @@ TEST(ObserveBlocks, ChartsWithoutAPageStayEmpty) {
   PreparedWall wall({CameraBefore(4)}, {0.2f});
   wall.charts[0].page = -1;
   const std::vector<ChartBlocks> blocks = ObserveBlocks(wall.model, wall.charts, wall.photos, {});
-  EXPECT_EQ(blocks[0].NumCells(), 0);
+  EXPECT_EQ(blocks[0].NumBlocks(), 0);
   EXPECT_TRUE(blocks[0].photos.empty());
 }
 

@@ -15,9 +15,9 @@ namespace {
 // Nothing but each block's own difference.
 ConsistencyOptions BlockByBlock() {
   ConsistencyOptions options;
-  options.cost_reach = 0;
-  options.dissent_reach = 0;
-  options.consensus_reach = 0;
+  options.cost_radius = 0;
+  options.inconsistency_radius = 0;
+  options.consensus_radius = 0;
   return options;
 }
 
@@ -31,7 +31,7 @@ TEST(MeasureConsistency, IsOneWhereAllAgree) {
   EXPECT_EQ(MeasureConsistency(blocks, 0, Neutral(blocks), {}), std::vector<float>(18, 1));
 }
 
-// Twice the ordinary difference in all channels is a dissent of 4.
+// Twice the ordinary difference in all channels is an inconsistency of 4.
 TEST(MeasureConsistency, FallsWithTheSquaredDifferenceToTheMajority) {
   const ConsistencyOptions options = BlockByBlock();
   ChartBlocks blocks = MakeBlocks(1, 1, 3);
@@ -42,9 +42,9 @@ TEST(MeasureConsistency, FallsWithTheSquaredDifferenceToTheMajority) {
   EXPECT_EQ(consistency[2], 1);
 }
 
-TEST(MeasureConsistency, DissentHasAnEnd) {
+TEST(MeasureConsistency, InconsistencyHasAnEnd) {
   ConsistencyOptions options = BlockByBlock();
-  options.largest_dissent = 2;
+  options.max_inconsistency = 2;
   ChartBlocks blocks = MakeBlocks(1, 1, 3);
   ViewAt(blocks, 0, 0, 0).log_radiance += 5;
   const std::vector<float> consistency = MeasureConsistency(blocks, 0, Neutral(blocks), options);
@@ -64,7 +64,7 @@ TEST(MeasureConsistency, UnevenLightCostsEverywhere) {
 }
 
 // Of two that differ, the one whose colour the chart has elsewhere is believed.
-TEST(MeasureConsistency, ThePaletteDecidesBetweenTwo) {
+TEST(MeasureConsistency, TheHistogramDecidesBetweenTwo) {
   const ConsistencyOptions options = BlockByBlock();
   ChartBlocks blocks = MakeBlocks(20, 10, 2);
   ViewAt(blocks, 7, 4, 0).log_radiance = Eigen::Array3f(-0.2f, -3, -3);
@@ -74,10 +74,10 @@ TEST(MeasureConsistency, ThePaletteDecidesBetweenTwo) {
   EXPECT_EQ(consistency[at + 1], 1);
 }
 
-// Three that show three things: all dissent counts a quarter, also for those who differ most.
-TEST(MeasureConsistency, WithoutAMajorityDissentCountsLittle) {
+// Three that show three things: all inconsistency counts a quarter, also for those who differ most.
+TEST(MeasureConsistency, WithoutAMajorityInconsistencyCountsLittle) {
   ConsistencyOptions options = BlockByBlock();
-  options.palette_weight = 0;
+  options.histogram_weight = 0;
   ChartBlocks blocks = MakeBlocks(2, 1, 3);
   for (int x = 0; x < 2; ++x) {
     ViewAt(blocks, x, 0, 0).log_radiance += 2 * options.ordinary_difference;

@@ -15,7 +15,7 @@ inline ChartBlocks MakeBlocks(int width, int height, int num_photos, float log_r
   blocks.width = width;
   blocks.height = height;
   for (int k = 0; k < num_photos; ++k) blocks.photos.push_back(k);
-  CellView view;
+  BlockView view;
   view.quality = 1;
   view.is_usable = true;
   view.log_radiance = Eigen::Array3f::Constant(log_radiance);
@@ -23,7 +23,7 @@ inline ChartBlocks MakeBlocks(int width, int height, int num_photos, float log_r
   return blocks;
 }
 
-inline CellView& ViewAt(ChartBlocks& blocks, int x, int y, int k) {
+inline BlockView& ViewAt(ChartBlocks& blocks, int x, int y, int k) {
   return blocks.views[(static_cast<size_t>(y) * blocks.width + x) * blocks.photos.size() + k];
 }
 

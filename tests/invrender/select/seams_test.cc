@@ -34,7 +34,7 @@ TEST(SmoothSeams, DropsIslandsThatGainLessThanTheirSeams) {
 
 TEST(SmoothSeams, CostlierSeamsDropLargerIslands) {
   SeamOptions options;
-  options.side = 0.5;
+  options.seam_cost = 0.5;
   EXPECT_EQ(SmoothIsland(std::exp(0.9f), options), std::vector<int>(5, 0));
   EXPECT_EQ(SmoothIsland(std::exp(1.1f), options), (std::vector<int>{0, 0, 1, 0, 0}));
 }
