@@ -263,6 +263,17 @@ void AddEntrance(const RandomTraits& traits, Draws& draws, Massing& massing) {
   }
 }
 
+// No mason works to the hair: sides that would lie in one line do so to an eighth of an inch.
+void SetByHand(Draws& draws, std::vector<Opening>& openings) {
+  constexpr double kEighthInch = 0.01;
+  for (Opening& opening : openings) {
+    for (double* side : {&opening.start_s, &opening.end_s, &opening.low_z, &opening.high_z}) {
+      const double off = draws.Uniform(-kEighthInch, kEighthInch);
+      if (*side > 0.1) *side += off;
+    }
+  }
+}
+
 }  // namespace
 
 void LayOutOpenings(const RandomTraits& traits, uint64_t seed, Massing& massing) {
@@ -289,6 +300,7 @@ void LayOutOpenings(const RandomTraits& traits, uint64_t seed, Massing& massing)
               {door.start_s - beside, door.end_s + beside, door.low_z - 3, door.high_z + 2.2});
         }
         FillWall(is_neighbour ? of_neighbours : traits, draws, is_neighbour, site, corner.openings);
+        SetByHand(draws, corner.openings);
       }
     }
   }

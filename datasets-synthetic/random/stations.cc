@@ -33,6 +33,11 @@ struct Station {
   double share = 0;                  // of the frame that the building takes
 };
 
+// As a tape gives it.
+Eigen::Vector3d ToTenths(const Eigen::Vector3d& at) {
+  return at.unaryExpr([](double value) { return std::round(10 * value) / 10; });
+}
+
 Extent ExtentOf(const Body& body) {
   return {{body.Low().x(), body.Low().y(), body.base},
           {body.High().x(), body.High().y(), body.Top()}};
@@ -149,8 +154,9 @@ class StationFinder {
   }
 
   // The share of the frame that shows the building; nothing if something stands close before the
-  // camera.
-  std::optional<double> ShareSeen(const PlannedView& view) const {
+  // camera, or before the building where it is looked at. The look-at point then moves along the
+  // line of sight to the place that is seen there.
+  std::optional<double> ShareSeen(PlannedView& view) const {
     constexpr int kColumns = 30;
     constexpr int kRows = 20;
     constexpr double kClose = 10;
@@ -160,6 +166,10 @@ class StationFinder {
     tag.view_angle_deg = view.view_angle_deg;
     tag.aspect = site_.aspect;
     const Camera camera = CameraFromTag(tag, kColumns, kRows);
+    const auto middle = visibility_.FirstHit(camera.PositionInWorld(), camera.ForwardInWorld());
+    if (!middle || middle->face >= site_.num_own_faces) return std::nullopt;
+    view.lookat_in_site = ToTenths(
+        SiteFromWorld(camera.PositionInWorld() + middle->distance * camera.ForwardInWorld()));
     int count = 0;
     for (int y = 0; y < kRows; ++y) {
       for (int x = 0; x < kColumns; ++x) {
@@ -175,12 +185,9 @@ class StationFinder {
   }
 
   PlannedView ViewFrom(const Station& station, const Aim& aim) const {
-    const auto to_tenth = [](const Eigen::Vector3d& at) -> Eigen::Vector3d {
-      return at.unaryExpr([](double value) { return std::round(10 * value) / 10; });
-    };
     PlannedView view;
-    view.position_in_site = to_tenth(SiteFromWorld(site_.frame.ToWorld(station.position)));
-    view.lookat_in_site = to_tenth(SiteFromWorld(site_.frame.ToWorld(station.lookat)));
+    view.position_in_site = ToTenths(SiteFromWorld(site_.frame.ToWorld(station.position)));
+    view.lookat_in_site = ToTenths(SiteFromWorld(site_.frame.ToWorld(station.lookat)));
     view.view_angle_deg = aim.view_angle_deg;
     view.comment = aim.comment;
     return view;
@@ -197,7 +204,7 @@ class StationFinder {
       const Aim aim = DrawAim(draws);
       const Station station = StandBack(aim, draws);
       if (!IsOutside(station.position)) continue;
-      const PlannedView view = ViewFrom(station, aim);
+      PlannedView view = ViewFrom(station, aim);
       const bool is_apart =
           std::all_of(others.begin(), others.end(), [&](const PlannedView& other) {
             return (other.position_in_site - view.position_in_site).norm() > kApart;
