@@ -11,8 +11,8 @@
 namespace groundglass {
 namespace {
 
-double MedianOf(std::vector<double> values) {
-  if (values.empty()) return 0;
+std::optional<double> MedianOf(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end());
   const size_t half = values.size() / 2;
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
@@ -29,6 +29,17 @@ JudgedScene AllTogether(const std::vector<JudgedScene>& scenes) {
   return all;
 }
 
+std::string TwoDecimals(const std::optional<double>& px) {
+  if (!px) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", *px);
+  return text;
+}
+
+nlohmann::ordered_json NumberOrNull(const std::optional<double>& px) {
+  return px ? nlohmann::ordered_json(*px) : nlohmann::ordered_json(nullptr);
+}
+
 std::string FormatLine(const SceneSummary& summary, int name_width) {
   char share[32] = "-";
   if (summary.num_calibrated > 0) {
@@ -37,7 +48,7 @@ std::string FormatLine(const SceneSummary& summary, int name_width) {
   char line[256];
   std::snprintf(line,
                 sizeof line,
-                "%-*s %6d %9d %7d %9d %6d %9.2f %10.2f %9.2f %12s\n",
+                "%-*s %6d %9d %7d %9d %6d %9s %10s %9s %12s\n",
                 name_width,
                 summary.name.c_str(),
                 summary.count,
@@ -45,9 +56,9 @@ std::string FormatLine(const SceneSummary& summary, int name_width) {
                 summary.num_review,
                 summary.num_rejected,
                 summary.num_wrong_accepted,
-                summary.median_start_px,
-                summary.median_px,
-                summary.worst_px,
+                TwoDecimals(summary.median_start_px).c_str(),
+                TwoDecimals(summary.median_px).c_str(),
+                TwoDecimals(summary.worst_px).c_str(),
                 share);
   return line;
 }
@@ -61,9 +72,9 @@ nlohmann::ordered_json JsonFromSceneSummary(const SceneSummary& summary) {
           {"wrong_accepted", summary.num_wrong_accepted},
           {"calibrated", summary.num_calibrated},
           {"inside_95", summary.num_inside_95},
-          {"median_start_px_at_640", summary.median_start_px},
-          {"median_px_at_640", summary.median_px},
-          {"worst_px_at_640", summary.worst_px}};
+          {"median_start_px_at_640", NumberOrNull(summary.median_start_px)},
+          {"median_px_at_640", NumberOrNull(summary.median_px)},
+          {"worst_px_at_640", NumberOrNull(summary.worst_px)}};
 }
 
 }  // namespace

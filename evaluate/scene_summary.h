@@ -43,10 +43,10 @@ struct SceneSummary {
   int num_wrong_accepted = 0;
   int num_calibrated = 0;
   int num_inside_95 = 0;
-  double median_start_px = 0;  // of all that have one
-  // Of the accepted photographs; of all where there are no verdicts.
-  double median_px = 0;
-  double worst_px = 0;
+  std::optional<double> median_start_px;  // of all that have one
+  // Of the accepted photographs; of all where there are no verdicts. Nothing if there are none.
+  std::optional<double> median_px;
+  std::optional<double> worst_px;
 };
 SceneSummary SummariseScene(const JudgedScene& scene);
 

@@ -51,6 +51,13 @@ TEST(SceneSummary, TakesAllWhereNothingIsJudged) {
   EXPECT_EQ(summary.worst_px, 4);
 }
 
+TEST(SceneSummary, NothingAcceptedHasNoErrors) {
+  const std::vector<JudgedScene> scenes = {{"hall", {Judged(Verdict::kReview, 1, std::nullopt)}}};
+  EXPECT_FALSE(SummariseScene(scenes[0]).median_px.has_value());
+  EXPECT_THAT(FormatScenesTable(scenes), HasSubstr("10.00          -         -"));
+  EXPECT_THAT(FormatScenesJson(scenes), HasSubstr("\"worst_px_at_640\": null"));
+}
+
 TEST(SceneSummary, BlundersOfTrialsAreLeftOut) {
   std::vector<Trial> trials(2);
   trials[0].verdict = trials[1].verdict = Verdict::kAccepted;
