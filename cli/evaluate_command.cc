@@ -7,6 +7,7 @@
 #include "evaluate/calibration_plot.h"
 #include "evaluate/error_plot.h"
 #include "evaluate/evaluate.h"
+#include "evaluate/scene_summary.h"
 #include "evaluate/trials.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
@@ -27,8 +28,8 @@ namespace fs = std::filesystem;
 struct EvaluateArguments {
   CommonOptions common;
   ModelArguments model_arguments;
-  std::string found;
-  std::string truth;
+  std::vector<std::string> found;
+  std::vector<std::string> truths;  // one for each of them; empty: in them or beside them
   std::string model;
   std::string plot_file;            // empty: none
   std::string calibration_file;     // the same, of trials
@@ -55,10 +56,20 @@ std::string SceneName(const fs::path& folder) {
   return whole.parent_path().filename().string();
 }
 
-int EvaluateFound(const EvaluateArguments& arguments) {
-  const Truth truth = ReadTruth(arguments.truth);
+// The truth that the `index`-th of what was found is judged by.
+fs::path TruthFolder(const EvaluateArguments& arguments, size_t index) {
+  if (!arguments.truths.empty()) return arguments.truths[index];
+  const fs::path found = fs::absolute(fs::path(arguments.found[index]) / ".").lexically_normal();
+  for (const fs::path& folder : {found.parent_path(), found.parent_path().parent_path()}) {
+    if (fs::is_directory(folder / "truth")) return folder / "truth";
+  }
+  throw Error(arguments.found[index], "no truth folder in it or beside it; name it with --truth");
+}
+
+// The polygon model of a scene, its oddities told.
+PolygonModel ReadModelOf(const EvaluateArguments& arguments, const fs::path& truth_folder) {
   const fs::path model_file =
-      arguments.model.empty() ? FindModel(arguments.truth) : fs::path(arguments.model);
+      arguments.model.empty() ? FindModel(truth_folder) : fs::path(arguments.model);
   if (arguments.model.empty()) {
     const auto others = DescribeOtherModels(model_file.parent_path(), model_file);
     if (others) std::fprintf(stderr, "groundglass: %s\n", others->c_str());
@@ -67,7 +78,12 @@ int EvaluateFound(const EvaluateArguments& arguments) {
   for (const std::string& warning : reading.warnings) {
     std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
   }
-  const PolygonModel& model = reading.model;
+  return reading.model;
+}
+
+int EvaluateFound(const EvaluateArguments& arguments) {
+  const Truth truth = ReadTruth(TruthFolder(arguments, 0));
+  const PolygonModel model = ReadModelOf(arguments, truth.folder);
   EvaluateOptions options;
   options.render = [](const TexturedModel& textured, const Camera& camera) {
     RenderOptions render_options;
@@ -76,12 +92,12 @@ int EvaluateFound(const EvaluateArguments& arguments) {
     render_options.background = Background::kTransparent;
     return Render(textured, camera, render_options);
   };
-  const Evaluation evaluation = Evaluate(arguments.found, truth, model, options);
+  const Evaluation evaluation = Evaluate(arguments.found.front(), truth, model, options);
   if (!arguments.plot_file.empty()) {
-    WriteFileAtomically(
-        arguments.plot_file,
-        FormatErrorPlot(
-            PlotPointsOf(evaluation), "Errors of " + arguments.found, UnitName(model.unit)));
+    WriteFileAtomically(arguments.plot_file,
+                        FormatErrorPlot(PlotPointsOf(evaluation),
+                                        "Errors of " + arguments.found.front(),
+                                        UnitName(model.unit)));
   }
   std::fputs(arguments.common.json ? FormatEvaluationJson(evaluation, model).c_str()
                                    : FormatEvaluationTable(evaluation, model).c_str(),
@@ -89,34 +105,96 @@ int EvaluateFound(const EvaluateArguments& arguments) {
   return kExitDone;
 }
 
-int RunTrialsOfScene(const EvaluateArguments& arguments) {
-  SceneOptions scene_options;
-  if (!arguments.model.empty()) scene_options.model_file = arguments.model;
-  scene_options.model = arguments.model_arguments.Options();
+TrialOptions TrialOptionsOf(const EvaluateArguments& arguments) {
   TrialOptions options = arguments.trials;
   options.num_trials = arguments.num_trials;
   options.seed = arguments.common.seed;
   options.Check();
-  const Scene scene = ReadScene(arguments.found, scene_options);
-  const std::vector<Trial> trials = RunTrials(
-      scene, ReadTruth(arguments.truth), options, MakeProgress(arguments.common, "notebooks"));
+  return options;
+}
+
+Scene ReadTrialScene(const EvaluateArguments& arguments, size_t index) {
+  SceneOptions options;
+  if (!arguments.model.empty()) options.model_file = arguments.model;
+  options.model = arguments.model_arguments.Options();
+  return ReadScene(arguments.found[index], options);
+}
+
+void WriteCalibration(const EvaluateArguments& arguments,
+                      const std::string& name,
+                      const std::vector<Trial>& trials) {
+  std::vector<CalibrationCurve> curves = {CalibrationCurveOf(name, trials)};
+  for (const std::string& file : arguments.beside) {
+    curves.push_back(ReadCalibrationCurve(fs::path(file).stem().string(), file));
+  }
+  WriteFileAtomically(arguments.calibration_file, FormatCalibrationPlot(curves));
+}
+
+int RunTrialsOfScene(const EvaluateArguments& arguments) {
+  const TrialOptions options = TrialOptionsOf(arguments);
+  const std::string& found = arguments.found.front();
+  const Scene scene = ReadTrialScene(arguments, 0);
+  const std::vector<Trial> trials = RunTrials(scene,
+                                              ReadTruth(TruthFolder(arguments, 0)),
+                                              options,
+                                              MakeProgress(arguments.common, "notebooks"));
   if (!arguments.plot_file.empty()) {
     WriteFileAtomically(arguments.plot_file,
                         FormatErrorPlot(PlotPointsOf(trials),
-                                        "Trials of " + arguments.found + ", px at 640 wide",
+                                        "Trials of " + found + ", px at 640 wide",
                                         UnitName(scene.model.unit)));
   }
-  if (!arguments.calibration_file.empty()) {
-    std::vector<CalibrationCurve> curves = {CalibrationCurveOf(SceneName(arguments.found), trials)};
-    for (const std::string& file : arguments.beside) {
-      curves.push_back(ReadCalibrationCurve(fs::path(file).stem().string(), file));
-    }
-    WriteFileAtomically(arguments.calibration_file, FormatCalibrationPlot(curves));
-  }
+  if (!arguments.calibration_file.empty()) WriteCalibration(arguments, SceneName(found), trials);
   std::fputs(arguments.common.json ? FormatTrialsJson(trials, options).c_str()
                                    : FormatTrialsTable(trials, options).c_str(),
              stdout);
   return kExitDone;
+}
+
+// Several scenes, one table: what was found in each, or trials of each.
+int EvaluateScenes(const EvaluateArguments& arguments) {
+  std::vector<JudgedScene> scenes;
+  std::vector<Trial> all_trials;
+  for (size_t i = 0; i < arguments.found.size(); ++i) {
+    const std::string& found = arguments.found[i];
+    const Truth truth = ReadTruth(TruthFolder(arguments, i));
+    if (arguments.num_trials > 0) {
+      const std::vector<Trial> trials =
+          RunTrials(ReadTrialScene(arguments, i),
+                    truth,
+                    TrialOptionsOf(arguments),
+                    MakeProgress(arguments.common, found + ": notebooks"));
+      scenes.push_back(JudgedSceneOf(found, trials));
+      all_trials.insert(all_trials.end(), trials.begin(), trials.end());
+    } else {
+      const PolygonModel model = ReadModelOf(arguments, truth.folder);
+      scenes.push_back(JudgedSceneOf(found, Evaluate(found, truth, model), truth));
+    }
+  }
+  if (!arguments.calibration_file.empty()) {
+    WriteCalibration(arguments, std::to_string(arguments.found.size()) + " scenes", all_trials);
+  }
+  std::fputs((arguments.common.json ? FormatScenesJson(scenes) : FormatScenesTable(scenes)).c_str(),
+             stdout);
+  return kExitDone;
+}
+
+// Several scenes are judged by their cameras alone, each by its own model and truth.
+void CheckSeveral(const EvaluateArguments& arguments) {
+  if (!arguments.truths.empty() && arguments.truths.size() != arguments.found.size()) {
+    throw CLI::ValidationError("--truth",
+                               "one for each FOUND is expected, or none where it lies in or beside "
+                               "what was found; there are " +
+                                   std::to_string(arguments.truths.size()) + " for " +
+                                   std::to_string(arguments.found.size()));
+  }
+  if (arguments.found.size() < 2) return;
+  if (!arguments.plot_file.empty()) {
+    throw CLI::ValidationError("--plot", "draws one scene; give one FOUND");
+  }
+  if (!arguments.model.empty()) {
+    throw CLI::ValidationError("--model", "is one scene's; give one FOUND");
+  }
 }
 
 // Without having looked at any of it.
@@ -125,11 +203,18 @@ int TellEvaluation(const EvaluateArguments& arguments) {
   for (const std::string& file : {arguments.plot_file, arguments.calibration_file}) {
     if (!file.empty()) files.push_back(file);
   }
-  std::string words = "evaluate " + arguments.found + " against " + arguments.truth;
+  std::string words = "evaluate ";
+  for (const std::string& found : arguments.found) {
+    words += (&found == &arguments.found.front() ? "" : ", ") + found;
+  }
+  if (!arguments.truths.empty()) words += " against ";
+  for (const std::string& truth : arguments.truths) {
+    words += (&truth == &arguments.truths.front() ? "" : ", ") + truth;
+  }
   for (const std::string& file : files) words += " and write " + file;
   return TellDryRun(arguments.common,
                     words,
-                    {{"found", arguments.found}, {"truth", arguments.truth}, {"files", files}});
+                    {{"found", arguments.found}, {"truth", arguments.truths}, {"files", files}});
 }
 
 }  // namespace
@@ -140,9 +225,16 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
       "evaluate", "Errors of cameras, masks and textures against a scene's known truth");
   command
       ->add_option(
-          "found", arguments->found, "output folder, folder of .view files, or COLMAP text model")
+          "found",
+          arguments->found,
+          "output folder, folder of .view files, or COLMAP text model; several give one table")
       ->required();
-  command->add_option("--truth", arguments->truth, "the scene's truth folder")->required();
+  command
+      ->add_option("--truth",
+                   arguments->truths,
+                   "the scene's truth folder; where there is none: truth/ in FOUND or beside it")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--model", arguments->model, "the polygon model, if not beside the truth");
   command->add_option("--plot", arguments->plot_file, "SVG of errors against start and claims");
   AddModelOptions(command, arguments->model_arguments);
@@ -185,8 +277,10 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
       ->delimiter(',')
       ->needs(calibration);
   command->callback([arguments, &exit_status] {
+    CheckSeveral(*arguments);
     exit_status = RunWithThreads(arguments->common, [&] {
       if (arguments->common.dry_run) return TellEvaluation(*arguments);
+      if (arguments->found.size() > 1) return EvaluateScenes(*arguments);
       return arguments->num_trials > 0 ? RunTrialsOfScene(*arguments) : EvaluateFound(*arguments);
     });
   });

@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/json_output.h"
 #include "cli/option_range.h"
+#include "datasets-synthetic/random/draw_recipe.h"
 #include "datasets-synthetic/synth.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/view_io.h"
@@ -57,8 +58,13 @@ void PrintPresets(const CommonOptions& common, const std::filesystem::path& pict
 
 int RunSynth(const SynthArguments& arguments, bool has_seed) {
   SynthRecipe recipe = PresetRecipe(arguments.preset);
-  if (!arguments.recipe_file.empty()) {
-    ApplyRecipeJson(ReadTextFile(arguments.recipe_file), arguments.recipe_file, recipe);
+  const std::string overrides =
+      arguments.recipe_file.empty() ? "{}" : ReadTextFile(arguments.recipe_file);
+  ApplyRecipeJson(overrides, arguments.recipe_file, recipe);
+  if (recipe.preset == "random") {
+    // Everything is drawn from the seed before anything else is overridden.
+    recipe = DrawRandomRecipe(has_seed ? arguments.common.seed : recipe.seed);
+    ApplyRecipeJson(overrides, arguments.recipe_file, recipe);
   }
   if (!arguments.size.empty()) ParseSize(arguments.size, recipe);
   if (arguments.num_views >= 0) recipe.num_views = arguments.num_views;

@@ -2,8 +2,10 @@
 // Part of Groundglass.
 #pragma once
 
+#include "datasets-synthetic/model_flaw.h"
 #include "datasets-synthetic/synthetic_world.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,17 @@ struct Subject {
   SyntheticWorld world;
   std::vector<PlannedView> views;
   std::vector<PlannedView> novel_views;
+
+  // What people get where it is not the world's first faces, the same without its errors, and where
+  // these are large.
+  struct DrawnModel {
+    PolygonModel model;
+    PolygonModel exact_model;
+    std::vector<ModelFlaw> flaws;
+  };
+  std::optional<DrawnModel> drawn_model;
+  // What is built there, neighbours too; where nothing is said, the model's own extent.
+  std::optional<Box> built;
 };
 
 // A white tiled modernist block after the Wiesner Building as the thesis describes it: setbacks, an

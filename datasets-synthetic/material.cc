@@ -223,6 +223,12 @@ Appearance StoneAppearance(const Surface& surface, const Place& at) {
   return {Mix(albedo, albedo * 0.4f, joints), 0};
 }
 
+Appearance PlasterAppearance(const Surface& surface, const Place& at) {
+  double factor = 1 + 0.05 * Noise(surface, 1, at, 0.15, 5) + 0.05 * Noise(surface, 2, at, 2.5, 3);
+  factor *= Weathering(surface, at, 0.8);
+  return {surface.color * static_cast<float>(factor), 0};
+}
+
 Appearance SlateAppearance(const Surface& surface, const Place& at) {
   constexpr double kWidth = 0.8;
   constexpr double kCourseHeight = 0.7;
@@ -278,6 +284,8 @@ Appearance BareAppearance(const Surface& surface, const Place& at) {
       return BrickAppearance(surface, at);
     case Material::kStone:
       return StoneAppearance(surface, at);
+    case Material::kPlaster:
+      return PlasterAppearance(surface, at);
     case Material::kSlate:
       return SlateAppearance(surface, at);
     case Material::kRoof:

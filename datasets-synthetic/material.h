@@ -24,11 +24,12 @@ enum class Material {
   kPaving,      // plaza pavers
   kGrass,
   kAsphalt,
-  kFacade,  // a distant building's wall with its windows
-  kBrick,   // running bond, with headers of another colour
-  kStone,   // ashlar trim
-  kSlate,   // roof slates in courses
-  kPlain,   // paint or metal
+  kFacade,   // a distant building's wall with its windows
+  kBrick,    // running bond, with headers of another colour
+  kStone,    // ashlar trim
+  kPlaster,  // rendered walls
+  kSlate,    // roof slates in courses
+  kPlain,    // paint or metal
   kFoliage,
   kBark,
   kPaint,  // of a car: it mirrors a little

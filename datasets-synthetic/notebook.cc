@@ -3,6 +3,7 @@
 #include "datasets-synthetic/notebook.h"
 
 #include "datasets-synthetic/noise.h"
+#include "scene/frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,7 @@ NotebookEntry MakeNotebookEntry(const PlannedView& planned,
   // Without errors of measurement a tape's rounding is none either: the notebook is exact.
   const auto error = [&](double sigma, int which) {
     if (sigma == 0) return 0.0;
-    return sigma * NormalOf(HashOf(seed, which, 1)) +
+    return notebook.error_scale * sigma * NormalOf(HashOf(seed, which, 1)) +
            notebook.tape * (UniformOf(HashOf(seed, which, 2)) - 0.5);
   };
   entry.actual.position_in_site += Eigen::Vector3d(error(notebook.sigma_position, 0),
@@ -36,6 +37,21 @@ NotebookEntry MakeNotebookEntry(const PlannedView& planned,
                                                  error(notebook.sigma_lookat, 5));
   entry.actual.roll_deg = notebook.sigma_roll_deg * NormalOf(HashOf(seed, 6));
   entry.actual.k1 = recipe.lens.k1;
+  if (recipe.lens.focal_scale != 1) {
+    const double tangent = std::tan(RadiansFromDegrees(planned.view_angle_deg) / 2);
+    entry.actual.view_angle_deg =
+        2 * DegreesFromRadians(std::atan(tangent / recipe.lens.focal_scale));
+  }
+  entry.measured.camera = recipe.lens.name;
+  if (notebook.stated_scale > 0) {
+    // To a thousandth, as a person would write.
+    const auto stated = [&](double sigma) {
+      return std::max(0.001, std::round(1000 * notebook.stated_scale * sigma) / 1000);
+    };
+    entry.measured.sigmas.position = stated(notebook.sigma_position);
+    entry.measured.sigmas.height = stated(notebook.sigma_height);
+    entry.measured.sigmas.lookat = stated(notebook.sigma_lookat);
+  }
   return entry;
 }
 

@@ -3,6 +3,7 @@
 #include "datasets-synthetic/planned_scene.h"
 
 #include "datasets-synthetic/noise.h"
+#include "datasets-synthetic/random/random_building.h"
 #include "datasets-synthetic/relief.h"
 
 namespace groundglass {
@@ -10,6 +11,7 @@ namespace {
 
 Subject MakeSubject(const SynthRecipe& recipe) {
   if (recipe.building == "brick") return MakeBrickHall(recipe.seed);
+  if (recipe.building == "random") return MakeRandomBuilding(recipe);
   if (recipe.building == "cityblock") return MakeCityBlock(recipe.seed, recipe.num_faces);
   return MakeWiesner(recipe.seed);
 }
@@ -37,10 +39,20 @@ void BlunderInNotebook(const SynthRecipe& recipe, std::vector<PhotographPlan>& p
 PlannedScene PlanScene(const SynthRecipe& recipe) {
   Subject subject = MakeSubject(recipe);
   PlannedScene planned;
-  planned.model = subject.world.Model();
+  if (subject.drawn_model) {
+    planned.model = std::move(subject.drawn_model->model);
+    planned.exact_model = std::move(subject.drawn_model->exact_model);
+    planned.model_flaws = std::move(subject.drawn_model->flaws);
+  } else {
+    planned.model = subject.world.Model();
+  }
+  planned.built = subject.built.value_or(ComputeBounds(planned.model));
   planned.world = std::move(subject.world);
   planned.novel_views = std::move(subject.novel_views);
-  AddRelief(recipe.relief, RevealColor(recipe), recipe.seed, planned.world);
+  // A random building has its windows' depth already.
+  if (!subject.drawn_model) {
+    AddRelief(recipe.relief, RevealColor(recipe), recipe.seed, planned.world);
+  }
   if (recipe.is_plain) PaintPlainly(recipe.seed, planned.world);
   if (recipe.num_views > 0 && recipe.num_views < static_cast<int>(subject.views.size())) {
     subject.views.resize(recipe.num_views);

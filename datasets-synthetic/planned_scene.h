@@ -4,6 +4,7 @@
 
 #include "datasets-synthetic/photograph_plan.h"
 
+#include <optional>
 #include <vector>
 
 namespace groundglass {
@@ -12,6 +13,10 @@ namespace groundglass {
 struct PlannedScene {
   SyntheticWorld world;  // as photographed: with the relief that the model has not
   PolygonModel model;    // what people get
+  // The same without errors, where it has some, and the large ones.
+  std::optional<PolygonModel> exact_model;
+  std::vector<ModelFlaw> model_flaws;
+  Box built;  // what stands there, neighbours too
   std::vector<PhotographPlan> photographs;
   std::vector<PlannedView> novel_views;
 };

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "datasets-synthetic/recipe.h"
 
+#include "datasets-synthetic/random/draw_recipe.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
 
@@ -14,6 +15,52 @@ namespace groundglass {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+template <typename Traits, typename Visit>
+void VisitTraits(Traits& traits, const Visit& visit) {
+  visit("random/plan", traits.plan);
+  visit("random/width", traits.width);
+  visit("random/depth", traits.depth);
+  visit("random/storeys", traits.storeys);
+  visit("random/storey_height", traits.storey_height);
+  visit("random/setbacks", traits.setbacks);
+  visit("random/corner_radius", traits.corner_radius);
+  visit("random/roof", traits.roof);
+  visit("random/pitch", traits.pitch);
+  visit("random/overhang", traits.overhang);
+  visit("random/parapet", traits.parapet);
+  visit("random/chimneys", traits.chimneys);
+  visit("random/dormers", traits.dormers);
+  visit("random/cladding", traits.cladding);
+  visit("random/windows", traits.windows);
+  visit("random/bay", traits.bay);
+  visit("random/window_width", traits.window_width);
+  visit("random/window_height", traits.window_height);
+  visit("random/blind_share", traits.blind_share);
+  visit("random/recess", traits.recess);
+  visit("random/arches", traits.has_arches);
+  visit("random/sills", traits.has_sills);
+  visit("random/cornice", traits.cornice);
+  visit("random/courses", traits.has_courses);
+  visit("random/plinth", traits.has_plinth);
+  visit("random/steps", traits.steps);
+  visit("random/porch", traits.has_porch);
+  visit("random/neighbours", traits.neighbours);
+  visit("random/heading_deg", traits.heading_deg);
+  visit("random/ground", traits.ground);
+  visit("random/view_angle_low_deg", traits.view_angle_low_deg);
+  visit("random/view_angle_high_deg", traits.view_angle_high_deg);
+  visit("random/model/detail", traits.model.detail);
+  visit("random/model/sigma", traits.model.sigma);
+  visit("random/model/stated_sigma", traits.model.stated_sigma);
+  visit("random/model/wall_off", traits.model.wall_off);
+  visit("random/model/eaves_off", traits.model.eaves_off);
+  visit("random/model/windows_off", traits.model.windows_off);
+  visit("random/model/overhang", traits.model.has_overhang);
+  visit("random/model/parapet", traits.model.has_parapet);
+  visit("random/model/neighbours", traits.model.has_neighbours);
+  visit("random/model/omits", traits.model.omits);
+}
 
 // Calls `visit` with the path and the value of each field, so that reading, writing and checking
 // agree on what there is.
@@ -34,6 +81,8 @@ void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("notebook/sigma_roll_deg", recipe.notebook.sigma_roll_deg);
   visit("notebook/tape", recipe.notebook.tape);
   visit("notebook/blunders", recipe.notebook.blunders);
+  visit("notebook/error_scale", recipe.notebook.error_scale);
+  visit("notebook/stated_scale", recipe.notebook.stated_scale);
   visit("slide/sigma_shift", recipe.slide.sigma_shift);
   visit("slide/sigma_turn_deg", recipe.slide.sigma_turn_deg);
   visit("slide/sigma_scale", recipe.slide.sigma_scale);
@@ -42,6 +91,8 @@ void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("slide/specks", recipe.slide.specks);
   visit("slide/scratches", recipe.slide.scratches);
   visit("lens/k1", recipe.lens.k1);
+  visit("lens/focal_scale", recipe.lens.focal_scale);
+  visit("lens/name", recipe.lens.name);
   visit("photo/sunny_share", recipe.photo.sunny_share);
   visit("photo/sigma_exposure_stops", recipe.photo.sigma_exposure_stops);
   visit("photo/sigma_white_balance", recipe.photo.sigma_white_balance);
@@ -60,6 +111,11 @@ void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("occluders/signs", recipe.occluders.signs);
   visit("occluders/cars", recipe.occluders.cars);
   visit("occluders/people", recipe.occluders.people);
+  if (recipe.building == "random") VisitTraits(recipe.random, visit);
+}
+
+bool MayBeNegative(const std::string& path) {
+  return path == "lens/k1" || path == "random/heading_deg" || path.ends_with("_off");
 }
 
 Json::json_pointer Pointer(const std::string& path) { return Json::json_pointer("/" + path); }
@@ -75,14 +131,19 @@ void SynthRecipe::Check() const {
   VisitFields(*this, [](const std::string& path, const auto& value) {
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
       if (!std::isfinite(value)) throw Error("recipe field " + path + " must be a finite number");
-      if (path != "lens/k1" && value < 0) {
+      if (!MayBeNegative(path) && value < 0) {
         throw Error("recipe field " + path + " must not be negative");
       }
     }
   });
-  if (building != "wiesner" && building != "brick" && building != "cityblock") {
-    throw Error("recipe field building must be wiesner, brick or cityblock, not " + building);
+  if (building != "wiesner" && building != "brick" && building != "cityblock" &&
+      building != "random") {
+    throw Error("recipe field building must be wiesner, brick, cityblock or random, not " +
+                building);
   }
+  if (building == "random") random.Check();
+  CheckAbove(notebook.error_scale, 0, "recipe field notebook/error_scale");
+  CheckAbove(lens.focal_scale, 0, "recipe field lens/focal_scale");
   if (num_faces < 300 || num_faces > 30000) {
     throw Error("recipe field faces must be 300 to 30000");
   }
@@ -111,11 +172,13 @@ std::vector<SynthPreset> ListSynthPresets() {
       {"ntsc", "wiesner digitised through NTSC video: 640x480, pixels that are not square"},
       {"brick", "gabled brick hall with stone trim and slate roofs, 16 slides"},
       {"cityblock", "six buildings with every window in the model, 1,000 faces, 22 slides"},
+      {"random", "a building of its own for each seed, with neighbours, model errors, any lens"},
       {"hard", "wiesner with everything at once: sun, trees, cars, mounts, dust, k1, exposure"},
   };
 }
 
 SynthRecipe PresetRecipe(const std::string& preset) {
+  if (preset == "random") return DrawRandomRecipe(SynthRecipe().seed);
   SynthRecipe recipe;
   recipe.preset = preset;
   recipe.occluders = {.trees = 4, .lamps = 6, .signs = 2, .cars = 0.3, .people = 1.5};
@@ -169,6 +232,7 @@ void ApplyRecipeJson(const std::string& text, const std::string& name, SynthReci
     throw Error(name, std::string("not JSON: ") + error.what());
   }
   if (!json.is_object()) throw Error(name, "a recipe is a JSON object");
+  if (json.empty()) return;
   Json flat = json.flatten();
   VisitFields(recipe, [&](const std::string& path, auto& value) {
     if (!json.contains(Pointer(path))) return;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "datasets-synthetic/occluders.h"
+#include "datasets-synthetic/random/traits.h"
 
 #include <cstdint>
 #include <string>
@@ -13,7 +14,8 @@ namespace groundglass {
 // Everything that a synthetic scene is made from. The same recipe and build give the same bytes.
 struct SynthRecipe {
   std::string preset = "wiesner";
-  std::string building = "wiesner";  // or brick, cityblock
+  std::string building = "wiesner";  // or brick, cityblock, random
+  RandomTraits random;               // of a random building
   int num_faces = 1000;              // of a city block, about
   int width_px = 1500;
   int height_px = 1000;
@@ -40,6 +42,10 @@ struct SynthRecipe {
     // How many of the tags hold a blunder: swapped coordinates, a wrong sign, another photograph's
     // numbers. Marked in truth.json.
     int blunders = 0;
+    // The errors are this many times as large as the sigmas, of which the writer knows nothing.
+    double error_scale = 1;
+    // What the tags say of their own errors, in the sigmas above; 0: nothing.
+    double stated_scale = 0;
   } notebook;
 
   // Mount and scanner, one standard deviation each.
@@ -57,6 +63,10 @@ struct SynthRecipe {
   // The lens, the same for all photographs.
   struct Lens {
     double k1 = 0;
+    // The focal length over the one that was written down.
+    double focal_scale = 1;
+    // What the tags call it; empty: they do not say that it is one lens.
+    std::string name;
   } lens;
 
   struct Photo {

@@ -21,6 +21,8 @@ namespace {
 // a window lies deep. Feet.
 constexpr double kBefore = 0.7;
 constexpr double kReach = 2.2;
+// What lies no farther before or behind a model's face that is drawn by itself is that face.
+constexpr double kSameDepth = 0.3;
 
 // A chart that holds a face, not yet on a page.
 SurfaceChart FitChart(const PolygonModel& model, int face, double texel) {
@@ -117,7 +119,8 @@ class ChartPainter {
         if (!is_on_face) continue;
         const int x = chart_.left + column;
         const int y = chart_.top + row;
-        const Appearance mean = MeanOver(column, row, kind == TexelKind::kExact);
+        const Appearance mean =
+            MeanOver(column, row, kind == TexelKind::kExact && !world_.is_model_apart);
         if (mean.gloss > 0 && kind != TexelKind::kEdge) kind = TexelKind::kGlass;
         *page.kinds.At(x, y) = static_cast<uint16_t>(kind);
         for (int c = 0; c < 3; ++c) page.radiance.At(x, y)[c] = mean.albedo[c];
@@ -136,6 +139,11 @@ class ChartPainter {
     const auto hit = Ahead(column, row);
     if (!hit) return TexelKind::kNone;
     if (world_.surfaces[hit->face].is_relief) return TexelKind::kRelief;
+    if (world_.is_model_apart) {
+      return hit->face < world_.num_model_faces && std::abs(hit->distance - kBefore) < kSameDepth
+                 ? TexelKind::kExact
+                 : TexelKind::kEdge;
+    }
     return hit->face == chart_.face ? TexelKind::kExact : TexelKind::kEdge;
   }
 
@@ -149,7 +157,9 @@ class ChartPainter {
       int face = chart_.face;
       Eigen::Vector3d point = chart_.PointInWorld(at_column, at_row);
       if (!is_in_plane) {
-        if (const auto hit = Ahead(at_column, at_row)) {
+        const auto hit = Ahead(at_column, at_row);
+        if (!hit && world_.is_model_apart) continue;
+        if (hit) {
           face = hit->face;
           point += (kBefore - hit->distance) * normal_;
         }

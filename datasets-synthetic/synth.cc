@@ -141,7 +141,7 @@ void WriteNovelView(const SynthRecipe& recipe,
 }
 
 OccluderSite SiteOf(const PlannedScene& planned) {
-  const Box bounds = ComputeBounds(planned.model);
+  const Box& bounds = planned.built;
   OccluderSite site;
   for (size_t face = 0; face < planned.world.surfaces.size(); ++face) {
     if (planned.world.geometry.faces[face].name != kPlazaName) continue;
@@ -159,14 +159,16 @@ OccluderSite SiteOf(const PlannedScene& planned) {
 }
 
 void WriteDocuments(const SynthRecipe& recipe,
-                    const PolygonModel& model,
-                    const std::vector<PhotographPlan>& plans,
-                    const std::vector<PlannedView>& novel_views,
+                    const PlannedScene& planned,
                     const fs::path& folder) {
+  const PolygonModel& model = planned.model;
+  const std::vector<PhotographPlan>& plans = planned.photographs;
   WriteFileAtomically(folder / "model.osu", FormatOsu(model));
   WriteFileAtomically(folder / "recipe.json", FormatRecipe(recipe));
-  WriteFileAtomically(folder / "truth" / "truth.json",
-                      FormatTruth(recipe, model, plans, novel_views));
+  WriteFileAtomically(folder / "truth" / "truth.json", FormatTruth(recipe, planned));
+  if (planned.exact_model) {
+    WriteFileAtomically(folder / "truth" / "model_exact.osu", FormatOsu(*planned.exact_model));
+  }
   std::vector<NamedCamera> cameras;
   for (const PhotographPlan& plan : plans) {
     cameras.push_back({PictureFileName(plan, recipe), plan.written_camera});
@@ -197,7 +199,7 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
     }
   }
   summary.mean_tag_error_px /= std::max(1, summary.num_photographs - summary.num_blunders);
-  WriteDocuments(recipe, model, plans, planned.novel_views, folder);
+  WriteDocuments(recipe, planned, folder);
 
   const Visibility model_visibility(model);
   const Visibility clean_visibility(planned.world.geometry);

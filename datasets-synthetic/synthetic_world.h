@@ -19,6 +19,8 @@ struct SyntheticWorld {
   PolygonModel geometry;
   std::vector<Surface> surfaces;  // one for each of the geometry's faces
   int num_model_faces = 0;        // the first ones
+  // The first faces are the building, and the model is another drawing of it.
+  bool is_model_apart = false;
 
   // A rounded corner, which the model has as three flat faces between tangent points, given
   // counterclockwise seen from above.

@@ -78,6 +78,15 @@ Json JsonFromPlan(const PhotographPlan& plan, const VertexError& tag_error) {
   return json;
 }
 
+// How the model is wrong: truth/model_exact.osu is what it means to show.
+Json JsonFromModelErrors(const SynthRecipe& recipe, const PlannedScene& planned) {
+  Json json = {{"sigma", recipe.random.model.sigma}, {"flaws", Json::array()}};
+  for (const ModelFlaw& flaw : planned.model_flaws) {
+    json["flaws"].push_back({{"what", flaw.what}, {"where", flaw.where}, {"offset", flaw.offset}});
+  }
+  return json;
+}
+
 }  // namespace
 
 VertexError MeasureTagError(const PolygonModel& model, const PhotographPlan& plan) {
@@ -92,10 +101,9 @@ int OccluderCodeOffset(const PolygonModel& model) {
   return model.faces.size() < kPerson ? 0 : kLargeModelOffset;
 }
 
-std::string FormatTruth(const SynthRecipe& recipe,
-                        const PolygonModel& model,
-                        const std::vector<PhotographPlan>& plans,
-                        const std::vector<PlannedView>& novel_views) {
+std::string FormatTruth(const SynthRecipe& recipe, const PlannedScene& planned) {
+  const PolygonModel& model = planned.model;
+  const std::vector<PhotographPlan>& plans = planned.photographs;
   Json json;
   json["scene"] = recipe.preset;
   json["units"] = "feet, left-handed x east, y south, z up";
@@ -113,6 +121,7 @@ std::string FormatTruth(const SynthRecipe& recipe,
   for (size_t face = 0; face < model.faces.size(); ++face) {
     json["face_names"][std::to_string(face + 1)] = model.faces[face].name;
   }
+  if (planned.exact_model) json["model"] = JsonFromModelErrors(recipe, planned);
   double sum_px = 0;
   int num_without_blunder = 0;
   Json views = Json::array();
@@ -127,7 +136,7 @@ std::string FormatTruth(const SynthRecipe& recipe,
   json["tag_error_px_mean_over_views"] = sum_px / std::max(1, num_without_blunder);
   json["views"] = views;
   json["novel"] = Json::array();
-  for (const PlannedView& view : novel_views) {
+  for (const PlannedView& view : planned.novel_views) {
     ViewTag tag;
     tag.position_in_site = view.position_in_site;
     tag.lookat_in_site = view.lookat_in_site;

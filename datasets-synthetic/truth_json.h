@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "datasets-synthetic/photograph_plan.h"
+#include "datasets-synthetic/planned_scene.h"
 #include "datasets-synthetic/vertex_error.h"
 #include "scene/polygon_model.h"
 
@@ -18,9 +18,6 @@ VertexError MeasureTagError(const PolygonModel& model, const PhotographPlan& pla
 int OccluderCodeOffset(const PolygonModel& model);
 
 // truth.json, laid out as in the brick scene.
-std::string FormatTruth(const SynthRecipe& recipe,
-                        const PolygonModel& model,
-                        const std::vector<PhotographPlan>& plans,
-                        const std::vector<PlannedView>& novel_views);
+std::string FormatTruth(const SynthRecipe& recipe, const PlannedScene& planned);
 
 }  // namespace groundglass
