@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #include "calibrate/board.h"
 
+#include "calibrate/april_tag_corners.h"
+#include "calibrate/april_tag_detection.h"
 #include "calibrate/board_layout.h"
 #include "calibrate/board_solve.h"
-#include "calibrate/tag_corners.h"
-#include "calibrate/tag_detection.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
@@ -51,32 +51,33 @@ ImageF LinearFromGrey(const Image8& srgb_grey) {
   return radiance;
 }
 
-// Measures every detected tag of the board, its corners taken as straight in `lens`.
-std::vector<TagCorners> MeasureShot(const Board& board,
-                                    const ImageF& radiance_grey,
-                                    const std::vector<TagDetection>& detections,
-                                    const Camera& lens) {
-  std::vector<TagCorners> tags;
-  for (const TagDetection& detection : detections) {
+// Measures every detected AprilTag of the board, its corners taken as straight in `lens`.
+std::vector<AprilTagCorners> MeasureShot(const Board& board,
+                                         const ImageF& radiance_grey,
+                                         const std::vector<AprilTagDetection>& detections,
+                                         const Camera& lens) {
+  std::vector<AprilTagCorners> april_tags;
+  for (const AprilTagDetection& detection : detections) {
     const int index = detection.id - board.first_id;
     if (index < 0 || index >= board.columns * board.rows) continue;
-    auto corners = MeasureTagCorners(radiance_grey, detection, board.gap / board.tag_size, lens);
+    auto corners =
+        MeasureAprilTagCorners(radiance_grey, detection, board.gap / board.april_tag_size, lens);
     if (!corners) continue;
     corners->id = index;
-    tags.push_back(*corners);
+    april_tags.push_back(*corners);
   }
-  return tags;
+  return april_tags;
 }
 
 // The detections as the solution predicts them: better starts for measuring again.
-std::vector<TagDetection> PredictDetections(const Board& board,
-                                            const BoardShot& shot,
-                                            const Camera& lens) {
-  std::vector<TagDetection> predicted;
-  for (const TagCorners& tag : shot.tags) {
-    const Eigen::Matrix<double, 2, 4> on_board = TagCornersOnBoard(board, tag.id);
-    TagDetection detection;
-    detection.id = tag.id + board.first_id;
+std::vector<AprilTagDetection> PredictDetections(const Board& board,
+                                                 const BoardShot& shot,
+                                                 const Camera& lens) {
+  std::vector<AprilTagDetection> predicted;
+  for (const AprilTagCorners& april_tag : shot.april_tags) {
+    const Eigen::Matrix<double, 2, 4> on_board = AprilTagCornersOnBoard(board, april_tag.id);
+    AprilTagDetection detection;
+    detection.id = april_tag.id + board.first_id;
     detection.border_cells = board.border_cells;
     bool is_seen = true;
     for (int corner = 0; corner < 4; ++corner) {
@@ -93,16 +94,16 @@ std::vector<TagDetection> PredictDetections(const Board& board,
 // Of a shot's corners, each axis apart; infinite if the lens cannot see one of them.
 double RmsPx(const Board& board, const BoardShot& shot, const Camera& lens) {
   double squared_px = 0;
-  for (const TagCorners& tag : shot.tags) {
-    const Eigen::Matrix<double, 2, 4> on_board = TagCornersOnBoard(board, tag.id);
+  for (const AprilTagCorners& april_tag : shot.april_tags) {
+    const Eigen::Matrix<double, 2, 4> on_board = AprilTagCornersOnBoard(board, april_tag.id);
     for (int corner = 0; corner < 4; ++corner) {
       const Eigen::Vector3d in_board(on_board(0, corner), on_board(1, corner), 0);
       const auto image_px = ProjectFromCam(lens, shot.cam_from_board * in_board);
       if (!image_px) return std::numeric_limits<double>::infinity();
-      squared_px += (*image_px - tag.corners_px.segment<2>(2 * corner)).squaredNorm();
+      squared_px += (*image_px - april_tag.corners_px.segment<2>(2 * corner)).squaredNorm();
     }
   }
-  return shot.tags.empty() ? 0 : std::sqrt(squared_px / (8.0 * shot.tags.size()));
+  return shot.april_tags.empty() ? 0 : std::sqrt(squared_px / (8.0 * shot.april_tags.size()));
 }
 
 // seen: what the photographs show in its place, for the message.
@@ -117,29 +118,29 @@ void CheckFit(double rms_px, double max_rms_px, const std::function<std::string(
 // Why too few photographs show the board.
 std::string ExplainWhy(std::span<const BoardPhotograph> photographs,
                        const Board& board,
-                       const std::vector<std::vector<TagDetection>>& detections) {
+                       const std::vector<std::vector<AprilTagDetection>>& detections) {
   const int end_id = board.first_id + board.columns * board.rows;
-  size_t num_tags = 0;
+  size_t num_april_tags = 0;
   size_t num_own = 0;
   size_t most = 0;
   for (size_t i = 0; i < detections.size(); ++i) {
-    num_tags += detections[i].size();
-    num_own += static_cast<size_t>(
-        std::count_if(detections[i].begin(), detections[i].end(), [&](const TagDetection& tag) {
-          return tag.id >= board.first_id && tag.id < end_id;
+    num_april_tags += detections[i].size();
+    num_own += static_cast<size_t>(std::count_if(
+        detections[i].begin(), detections[i].end(), [&](const AprilTagDetection& april_tag) {
+          return april_tag.id >= board.first_id && april_tag.id < end_id;
         }));
     if (detections[i].size() > detections[most].size()) most = i;
   }
-  if (num_tags == 0) {
+  if (num_april_tags == 0) {
     // Several, since one may show nothing at all.
     std::string text;
     for (size_t i = 0; i < std::min<size_t>(photographs.size(), 3); ++i) {
-      text = DescribeOtherTags(photographs[i].srgb_grey);
+      text = DescribeOtherAprilTags(photographs[i].srgb_grey);
       if (text.find("no AprilTags") == std::string::npos) break;
     }
     return "; " + text;
   }
-  if (2 * num_own > num_tags) return "";
+  if (2 * num_own > num_april_tags) return "";
   return "; " + DescribeSeenBoard(board, detections);
 }
 
@@ -155,9 +156,9 @@ std::vector<std::string> Remarks(const std::vector<BoardShot>& shots,
   double tilt_rad = 0;
   for (const BoardShot& shot : shots) {
     tilt_rad = std::max(tilt_rad, std::acos(std::min(1.0, shot.cam_from_board.rotation(2, 2))));
-    for (const TagCorners& tag : shot.tags) {
+    for (const AprilTagCorners& april_tag : shot.april_tags) {
       for (int corner = 0; corner < 4; ++corner) {
-        reach = std::max(reach, (tag.corners_px.segment<2>(2 * corner) - center_px).norm());
+        reach = std::max(reach, (april_tag.corners_px.segment<2>(2 * corner) - center_px).norm());
       }
     }
   }
@@ -225,10 +226,10 @@ void CheckSizes(std::span<const BoardPhotograph> photographs) {
 }  // namespace
 
 void Board::Check() const {
-  CheckFromTo(columns, 2, kNumTagIds, "board: columns");
-  CheckFromTo(rows, 2, kNumTagIds, "board: rows");
-  CheckAbove(tag_size, 0, "board: tag_size");
-  if (!(gap >= 0.1 * tag_size && gap <= tag_size)) {
+  CheckFromTo(columns, 2, kNumAprilTagIds, "board: columns");
+  CheckFromTo(rows, 2, kNumAprilTagIds, "board: rows");
+  CheckAbove(april_tag_size, 0, "board: april_tag_size");
+  if (!(gap >= 0.1 * april_tag_size && gap <= april_tag_size)) {
     const bool may_be_ratio = gap >= 0.1 && gap <= 1;
     throw OptionError(
         "board: gap",
@@ -237,26 +238,26 @@ void Board::Check() const {
             (may_be_ratio
                  ? "; if " + FormatNumber(gap) +
                        " is its ratio to the tag size, as Kalibr's tagSpacing, give --gap " +
-                       FormatNumber(std::round(1e6 * gap * tag_size) / 1e6)
+                       FormatNumber(std::round(1e6 * gap * april_tag_size) / 1e6)
                  : ""));
   }
   CheckAtLeast(first_id, 0, "board: first_id");
-  const long num_tags = static_cast<long>(columns) * rows;
-  if (first_id + num_tags > kNumTagIds) {
+  const long num_april_tags = static_cast<long>(columns) * rows;
+  if (first_id + num_april_tags > kNumAprilTagIds) {
     throw OptionError("board: columns and rows and first_id:",
-                      std::to_string(num_tags) + " tags from " + std::to_string(first_id) +
+                      std::to_string(num_april_tags) + " tags from " + std::to_string(first_id) +
                           " on are more than the family tag36h11 has (" +
-                          std::to_string(kNumTagIds) + ")");
+                          std::to_string(kNumAprilTagIds) + ")");
   }
 }
 
 void BoardOptions::Check() const {
-  CheckFromTo(min_tags, 1, kNumTagIds, "board: min_tags");
+  CheckFromTo(min_april_tags, 1, kNumAprilTagIds, "board: min_april_tags");
   CheckAbove(max_rms_px, 0, "board: max_rms_px");
 }
 
-Eigen::Matrix<double, 2, 4> TagCornersOnBoard(const Board& board, int index) {
-  const double pitch = board.tag_size + board.gap;
+Eigen::Matrix<double, 2, 4> AprilTagCornersOnBoard(const Board& board, int index) {
+  const double pitch = board.april_tag_size + board.gap;
   const int stride = board.numbering.stride > 0 ? board.numbering.stride : board.columns;
   const Eigen::Vector2i place =
       board.numbering.grid_from_count * Eigen::Vector2i(index % stride, index / stride);
@@ -264,7 +265,7 @@ Eigen::Matrix<double, 2, 4> TagCornersOnBoard(const Board& board, int index) {
   Eigen::Matrix<double, 2, 4> corners;
   corners << 0, 1, 1, 0,  //
       0, 0, 1, 1;
-  corners *= board.tag_size;
+  corners *= board.april_tag_size;
   return corners.colwise() + top_left;
 }
 
@@ -282,14 +283,15 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
   const LensVector no_lens{
       2 * std::atan(0.5), static_cast<double>(width_px) / height_px, 0, 0, 0, 0};
   const Camera straight = CameraFromLensVector(no_lens, width_px, height_px);
-  std::vector<std::vector<TagDetection>> detections(photographs.size());
+  std::vector<std::vector<AprilTagDetection>> detections(photographs.size());
   tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
-    detections[i] = DetectTags(photographs[i].srgb_grey);
+    detections[i] = DetectAprilTags(photographs[i].srgb_grey);
   });
   const Board board = FindBoardLayout(given, detections);
-  std::vector<std::vector<TagCorners>> tags(photographs.size());
+  std::vector<std::vector<AprilTagCorners>> april_tags(photographs.size());
   tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
-    tags[i] = MeasureShot(board, LinearFromGrey(photographs[i].srgb_grey), detections[i], straight);
+    april_tags[i] =
+        MeasureShot(board, LinearFromGrey(photographs[i].srgb_grey), detections[i], straight);
   });
   const auto seen = [&] { return DescribeSeenBoard(board, detections); };
 
@@ -298,13 +300,13 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
   std::vector<BoardShot> shots;
   for (size_t i = 0; i < photographs.size(); ++i) {
     result.photographs.push_back({photographs[i].name, 0, 0, {}});
-    if (static_cast<int>(tags[i].size()) < options.min_tags) continue;
-    shots.push_back({i, tags[i], {}});
+    if (static_cast<int>(april_tags[i].size()) < options.min_april_tags) continue;
+    shots.push_back({i, april_tags[i], {}});
   }
   if (shots.size() < kMinPhotographs) {
     throw Error("calibrate board: " + std::to_string(shots.size()) + " of " +
                 std::to_string(photographs.size()) + " photographs show the board with at least " +
-                std::to_string(options.min_tags) +
+                std::to_string(options.min_april_tags) +
                 " of its tags; at least 3 are needed, from several sides" +
                 ExplainWhy(photographs, board, detections));
   }
@@ -320,12 +322,12 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
   // Measure again where the solution expects the edges, straight in its lens.
   const Camera found = CameraFromLensVector(solution.lens, width_px, height_px);
   tbb::parallel_for(size_t{0}, shots.size(), [&](size_t i) {
-    shots[i].tags = MeasureShot(board,
-                                LinearFromGrey(photographs[shots[i].photograph].srgb_grey),
-                                PredictDetections(board, shots[i], found),
-                                found);
+    shots[i].april_tags = MeasureShot(board,
+                                      LinearFromGrey(photographs[shots[i].photograph].srgb_grey),
+                                      PredictDetections(board, shots[i], found),
+                                      found);
   });
-  std::erase_if(shots, [](const BoardShot& shot) { return shot.tags.empty(); });
+  std::erase_if(shots, [](const BoardShot& shot) { return shot.april_tags.empty(); });
   solution = RefineLens(board, options, solution.lens, shots, width_px, height_px);
 
   result.lens = MakeLens(solution);
@@ -334,7 +336,7 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
   const Camera final_lens = CameraFromLensVector(solution.lens, width_px, height_px);
   for (const BoardShot& shot : shots) {
     BoardSighting& sighting = result.photographs[shot.photograph];
-    sighting.num_tags = static_cast<int>(shot.tags.size());
+    sighting.num_april_tags = static_cast<int>(shot.april_tags.size());
     sighting.rms_px = RmsPx(board, shot, final_lens);
     sighting.cam_from_board = shot.cam_from_board;
   }
