@@ -5,6 +5,7 @@
 #include "invrender/bake_output.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/model_io.h"
 #include "scene/formats/textured_model_io.h"
 #include "viewer/camera_path.h"
 #include "viewer/renderer.h"

@@ -5,7 +5,7 @@
 
 #include "scene/error.h"
 #include "scene/formats/colmap_io.h"
-#include "scene/formats/scene_folder.h"
+#include "scene/formats/scene.h"
 #include "scene/text.h"
 
 #include <filesystem>

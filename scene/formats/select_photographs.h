@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/formats/scene_folder.h"
+#include "scene/formats/scene.h"
 
 #include <string>
 #include <vector>
