@@ -4,6 +4,7 @@
 
 #include "invrender/plan/suggest_viewpoint.h"
 #include "scene/face_number.h"
+#include "scene/quantile.h"
 
 #include <algorithm>
 
@@ -78,12 +79,7 @@ void AddSources(const std::vector<BakePhotograph>& photographs,
     FaceCoverage::Source& entry = coverage.faces[source.face].sources.emplace_back();
     entry.photograph = photographs[source.photo].name;
     entry.num_texels = source.num_texels;
-    std::vector<float>& footprints = source.footprints;
-    if (!footprints.empty()) {
-      std::nth_element(
-          footprints.begin(), footprints.begin() + footprints.size() / 2, footprints.end());
-      entry.footprint = footprints[footprints.size() / 2];
-    }
+    if (!source.footprints.empty()) entry.footprint = UpperMedian(std::move(source.footprints));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "scene/formats/image_io.h"
 #include "scene/formats/model_io.h"
 #include "scene/formats/textured_model_io.h"
+#include "scene/progress.h"
 #include "viewer/camera_path.h"
 #include "viewer/renderer.h"
 
@@ -124,9 +125,10 @@ ImageSize EnsureStills(const std::vector<Registration>& registrations,
   options.background = Background::kSky;
   options.supersampling = 2;
   const Progress progress = observer.Begin(kStillsStage);
+  ProgressCounter steps(progress, num_stills);
   for (int still = 0; still < num_stills; ++still) {
     WriteSrgb8(out / files[still], renderer.Render(flight[2 * still + 1], options));
-    if (progress) progress(still + 1, num_stills, files[still]);
+    steps.Tell(files[still]);
   }
   stages.Finish(kStillsStage);
   return size;
