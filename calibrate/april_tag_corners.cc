@@ -2,8 +2,11 @@
 // Part of Groundglass.
 #include "calibrate/april_tag_corners.h"
 
+#include "scene/quantile.h"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace groundglass {
@@ -104,8 +107,7 @@ std::optional<EdgeLine> FitLine(std::vector<Eigen::Vector2d> points,
     };
     std::vector<double> distances;
     for (const Eigen::Vector2d& point : points) distances.push_back(distance(point));
-    std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
-    const double spread = std::max(1.48 * distances[distances.size() / 2], 0.02);
+    const double spread = std::max(1.48 * UpperMedian(std::move(distances)), 0.02);
     const size_t removed = std::erase_if(points, [&](const Eigen::Vector2d& point) {
       return distance(point) > kOutlierSpreads * spread;
     });

@@ -2,16 +2,11 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/formats/lens.h"
-#include "scene/frames.h"
 #include "scene/image.h"
 
 #include <Eigen/Dense>
 
 #include <filesystem>
-#include <span>
-#include <string>
-#include <vector>
 
 namespace groundglass {
 
@@ -50,12 +45,7 @@ Eigen::Matrix<double, 2, 4> AprilTagCornersOnBoard(const Board& board, int index
 // below that says what to measure after printing.
 Image8 DrawBoard(const Board& board);
 
-// A photograph of the board: 8-bit sRGB grey, one channel.
-struct BoardPhotograph {
-  std::string name;
-  Image8 srgb_grey;
-};
-
+// Of CalibrateBoard.
 struct BoardOptions {
   // Free the second distortion coefficient as well: for wide lenses, with the board seen up to
   // the frame's corners.
@@ -71,37 +61,8 @@ struct BoardOptions {
   void Check() const;
 };
 
-// What one photograph said.
-struct BoardSighting {
-  std::string name;
-  int num_april_tags = 0;  // of the board, found and used; 0 if the photograph took no part
-  double rms_px = 0;       // of its corners, each axis apart
-  RigidTransform cam_from_board;
-};
-
-struct BoardResult {
-  Lens lens;                               // deviations are scaled by how well the corners fit
-  std::vector<BoardSighting> photographs;  // in the order given
-  int num_corners = 0;
-  double rms_px = 0;  // over all corners, each axis apart
-  // How the photographs show the board, if not as DrawBoard draws it; one line, for a person.
-  std::string layout;
-  // What would make the lens better known; one line each, for a person.
-  std::vector<std::string> remarks;
-  // The corners miss the board, and the pictures show another one, which the last remark describes.
-  bool shows_other_board = false;
-};
-
 // Reads Kalibr's target file (target_type: aprilgrid, tagCols, tagRows, tagSize, tagSpacing), whose
 // tagSpacing is the gap as a share of the AprilTag. Throws Error naming file and line.
 Board ReadKalibrTarget(const std::filesystem::path& file);
-
-// Finds the lens that took these photographs of a board: detects the AprilTags, measures their
-// corners where the fitted black edges meet, starts from homographies (Zhang 2000), and refines the
-// lens and one pose for each photograph with Ceres. Throws Error if the photographs differ in size,
-// if fewer than three show the board, or if the corners do not fit it.
-BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
-                           const Board& board,
-                           const BoardOptions& options = {});
 
 }  // namespace groundglass

@@ -3,11 +3,11 @@
 #include "calibrate/board_solve.h"
 
 #include "scene/error.h"
+#include "scene/quantile.h"
 #include "scene/symmetric_eigen.h"
 
 #include <ceres/ceres.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -274,9 +274,7 @@ LensSolution RefineLens(const Board& board,
         squared_px += fit.squared_px;
       }
     }
-    std::vector<double> sorted = whitened;
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    const double limit = kOutlierFactor * sorted[sorted.size() / 2];
+    const double limit = kOutlierFactor * UpperMedian(whitened);
     size_t next = 0;
     size_t removed = 0;
     for (BoardShot& shot : shots) {

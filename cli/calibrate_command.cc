@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "calibrate/board.h"
+#include "calibrate/calibrate_board.h"
 #include "cli/commands.h"
 #include "cli/json_output.h"
 #include "scene/error.h"

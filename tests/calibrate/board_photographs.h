@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "calibrate/board.h"
+#include "calibrate/calibrate_board.h"
 #include "scene/camera.h"
 
 #include <random>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "calibrate/board.h"
-
 #include "calibrate/april_tag_corners.h"
 #include "calibrate/april_tag_detection.h"
+#include "calibrate/calibrate_board.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/srgb.h"
