@@ -2,233 +2,20 @@
 // Part of Groundglass.
 #include "calibrate/board.h"
 
-#include "calibrate/board_layout.h"
-#include "calibrate/board_solve.h"
-#include "calibrate/tag_corners.h"
-#include "calibrate/tag_detection.h"
+#include "calibrate/april_tag_detection.h"
 #include "scene/check_option.h"
-#include "scene/error.h"
-#include "scene/formats/image_io.h"
-#include "scene/srgb.h"
 #include "scene/text.h"
 
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <functional>
-#include <limits>
-#include <optional>
+#include <string>
 
 namespace groundglass {
-namespace {
-
-constexpr int kMinPhotographs = 3;
-// Before distortion is solved for, a photograph's corners lie this close to the board, as a share
-// of the frame's width; if not, it is another board.
-constexpr double kMaxStartMisfit = 0.1;
-// Sharp photographs of a flat board fit better than this (pixels).
-constexpr double kGoodRmsPx = 0.4;
-
-std::string Format(const char* format, double value) {
-  std::array<char, 160> text;
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
-
-ImageF LinearFromGrey(const Image8& srgb_grey) {
-  std::array<float, 256> linear;
-  for (size_t code = 0; code < linear.size(); ++code) {
-    linear[code] = LinearFromSrgb(static_cast<float>(code) / 255.0F);
-  }
-  ImageF radiance(srgb_grey.width, srgb_grey.height, 1);
-  std::transform(srgb_grey.values.begin(),
-                 srgb_grey.values.end(),
-                 radiance.values.begin(),
-                 [&linear](uint8_t code) { return linear[code]; });
-  return radiance;
-}
-
-// Measures every detected tag of the board, its corners taken as straight in `lens`.
-std::vector<TagCorners> MeasureShot(const Board& board,
-                                    const ImageF& radiance_grey,
-                                    const std::vector<TagDetection>& detections,
-                                    const Camera& lens) {
-  std::vector<TagCorners> tags;
-  for (const TagDetection& detection : detections) {
-    const int index = detection.id - board.first_id;
-    if (index < 0 || index >= board.columns * board.rows) continue;
-    auto corners = MeasureTagCorners(radiance_grey, detection, board.gap / board.tag_size, lens);
-    if (!corners) continue;
-    corners->id = index;
-    tags.push_back(*corners);
-  }
-  return tags;
-}
-
-// The detections as the solution predicts them: better starts for measuring again.
-std::vector<TagDetection> PredictDetections(const Board& board,
-                                            const BoardShot& shot,
-                                            const Camera& lens) {
-  std::vector<TagDetection> predicted;
-  for (const TagCorners& tag : shot.tags) {
-    const Eigen::Matrix<double, 2, 4> on_board = TagCornersOnBoard(board, tag.id);
-    TagDetection detection;
-    detection.id = tag.id + board.first_id;
-    detection.border_cells = board.border_cells;
-    bool is_seen = true;
-    for (int corner = 0; corner < 4; ++corner) {
-      const Eigen::Vector3d in_board(on_board(0, corner), on_board(1, corner), 0);
-      const auto image_px = ProjectFromCam(lens, shot.cam_from_board * in_board);
-      is_seen = is_seen && image_px.has_value();
-      if (image_px) detection.corners_px.col(corner) = *image_px;
-    }
-    if (is_seen) predicted.push_back(detection);
-  }
-  return predicted;
-}
-
-// Of a shot's corners, each axis apart; infinite if the lens cannot see one of them.
-double RmsPx(const Board& board, const BoardShot& shot, const Camera& lens) {
-  double squared_px = 0;
-  for (const TagCorners& tag : shot.tags) {
-    const Eigen::Matrix<double, 2, 4> on_board = TagCornersOnBoard(board, tag.id);
-    for (int corner = 0; corner < 4; ++corner) {
-      const Eigen::Vector3d in_board(on_board(0, corner), on_board(1, corner), 0);
-      const auto image_px = ProjectFromCam(lens, shot.cam_from_board * in_board);
-      if (!image_px) return std::numeric_limits<double>::infinity();
-      squared_px += (*image_px - tag.corners_px.segment<2>(2 * corner)).squaredNorm();
-    }
-  }
-  return shot.tags.empty() ? 0 : std::sqrt(squared_px / (8.0 * shot.tags.size()));
-}
-
-// seen: what the photographs show in its place, for the message.
-void CheckFit(double rms_px, double max_rms_px, const std::function<std::string()>& seen) {
-  if (rms_px <= max_rms_px) return;
-  const std::string text = seen();
-  throw Error("calibrate board: the corners miss the board by " + Format("%.1f", rms_px) +
-              " px; check columns, rows, tag size and gap, and that the board is flat" +
-              (text.empty() ? "" : "; ") + text);
-}
-
-// Why too few photographs show the board.
-std::string ExplainWhy(std::span<const BoardPhotograph> photographs,
-                       const Board& board,
-                       const std::vector<std::vector<TagDetection>>& detections) {
-  const int end_id = board.first_id + board.columns * board.rows;
-  size_t num_tags = 0;
-  size_t num_own = 0;
-  size_t most = 0;
-  for (size_t i = 0; i < detections.size(); ++i) {
-    num_tags += detections[i].size();
-    num_own += static_cast<size_t>(
-        std::count_if(detections[i].begin(), detections[i].end(), [&](const TagDetection& tag) {
-          return tag.id >= board.first_id && tag.id < end_id;
-        }));
-    if (detections[i].size() > detections[most].size()) most = i;
-  }
-  if (num_tags == 0) {
-    // Several, since one may show nothing at all.
-    std::string text;
-    for (size_t i = 0; i < std::min<size_t>(photographs.size(), 3); ++i) {
-      text = DescribeOtherTags(photographs[i].srgb_grey);
-      if (text.find("no AprilTags") == std::string::npos) break;
-    }
-    return "; " + text;
-  }
-  if (2 * num_own > num_tags) return "";
-  return "; " + DescribeSeenBoard(board, detections);
-}
-
-// What would make the lens better known.
-std::vector<std::string> Remarks(const std::vector<BoardShot>& shots,
-                                 const LensSolution& solution,
-                                 const Lens& lens,
-                                 int width_px,
-                                 int height_px) {
-  std::vector<std::string> remarks;
-  const Eigen::Vector2d center_px(0.5 * width_px, 0.5 * height_px);
-  double reach = 0;
-  double tilt_rad = 0;
-  for (const BoardShot& shot : shots) {
-    tilt_rad = std::max(tilt_rad, std::acos(std::min(1.0, shot.cam_from_board.rotation(2, 2))));
-    for (const TagCorners& tag : shot.tags) {
-      for (int corner = 0; corner < 4; ++corner) {
-        reach = std::max(reach, (tag.corners_px.segment<2>(2 * corner) - center_px).norm());
-      }
-    }
-  }
-  reach /= center_px.norm();
-  if (solution.rms_px > kGoodRmsPx) {
-    remarks.push_back(
-        Format("the corners miss the board by %.2f px, where a flat and well measured "
-               "one is good to 0.1: measure the tag size and the gap again",
-               solution.rms_px));
-  }
-  if (reach < 0.75) {
-    remarks.push_back(
-        Format("the board reaches only %.0f %% of the way to the frame's corners: "
-               "beyond that, k1 is a guess",
-               100 * reach));
-  }
-  if (DegreesFromRadians(tilt_rad) < 15) {
-    remarks.push_back(
-        Format("the board is turned by %.0f degrees at most: 20 to 45 would tell the "
-               "view angle better",
-               DegreesFromRadians(tilt_rad)));
-  }
-  if (lens.sigma_view_angle_deg > 0.01 * lens.view_angle_deg) {
-    remarks.push_back(
-        Format("the view angle is known to %.1f %% only: more photographs, from more "
-               "sides",
-               100 * lens.sigma_view_angle_deg / lens.view_angle_deg));
-  }
-  return remarks;
-}
-
-Lens MakeLens(const LensSolution& solution) {
-  const auto sigma = [&](int i) { return std::sqrt(solution.covariance(i, i)); };
-  Lens lens;
-  lens.view_angle_deg = DegreesFromRadians(solution.lens[0]);
-  lens.sigma_view_angle_deg = DegreesFromRadians(sigma(0));
-  lens.aspect = solution.lens[1];
-  lens.sigma_aspect = sigma(1);
-  lens.shift_x = solution.lens[2];
-  lens.sigma_shift_x = sigma(2);
-  lens.shift_y = solution.lens[3];
-  lens.sigma_shift_y = sigma(3);
-  lens.k1 = solution.lens[4];
-  lens.sigma_k1 = sigma(4);
-  lens.k2 = solution.lens[5];
-  lens.sigma_k2 = sigma(5);
-  return lens;
-}
-
-void CheckSizes(std::span<const BoardPhotograph> photographs) {
-  for (const BoardPhotograph& photograph : photographs) {
-    const Image8& image = photograph.srgb_grey;
-    const Image8& first = photographs.front().srgb_grey;
-    if (image.channels != 1) throw Error(photograph.name, "expected grey, one channel");
-    if (image.width != first.width || image.height != first.height) {
-      throw Error(photograph.name,
-                  std::to_string(image.width) + " x " + std::to_string(image.height) +
-                      " pixels, but " + photographs.front().name + " has " +
-                      std::to_string(first.width) + " x " + std::to_string(first.height) +
-                      "; photographs of one lens have one size");
-    }
-  }
-}
-
-}  // namespace
 
 void Board::Check() const {
-  CheckFromTo(columns, 2, kNumTagIds, "board: columns");
-  CheckFromTo(rows, 2, kNumTagIds, "board: rows");
-  CheckAbove(tag_size, 0, "board: tag_size");
-  if (!(gap >= 0.1 * tag_size && gap <= tag_size)) {
+  CheckFromTo(columns, 2, kNumAprilTagIds, "board: columns");
+  CheckFromTo(rows, 2, kNumAprilTagIds, "board: rows");
+  CheckAbove(april_tag_size, 0, "board: april_tag_size");
+  if (!(gap >= 0.1 * april_tag_size && gap <= april_tag_size)) {
     const bool may_be_ratio = gap >= 0.1 && gap <= 1;
     throw OptionError(
         "board: gap",
@@ -237,26 +24,26 @@ void Board::Check() const {
             (may_be_ratio
                  ? "; if " + FormatNumber(gap) +
                        " is its ratio to the tag size, as Kalibr's tagSpacing, give --gap " +
-                       FormatNumber(std::round(1e6 * gap * tag_size) / 1e6)
+                       FormatNumber(std::round(1e6 * gap * april_tag_size) / 1e6)
                  : ""));
   }
   CheckAtLeast(first_id, 0, "board: first_id");
-  const long num_tags = static_cast<long>(columns) * rows;
-  if (first_id + num_tags > kNumTagIds) {
+  const long num_april_tags = static_cast<long>(columns) * rows;
+  if (first_id + num_april_tags > kNumAprilTagIds) {
     throw OptionError("board: columns and rows and first_id:",
-                      std::to_string(num_tags) + " tags from " + std::to_string(first_id) +
+                      std::to_string(num_april_tags) + " tags from " + std::to_string(first_id) +
                           " on are more than the family tag36h11 has (" +
-                          std::to_string(kNumTagIds) + ")");
+                          std::to_string(kNumAprilTagIds) + ")");
   }
 }
 
 void BoardOptions::Check() const {
-  CheckFromTo(min_tags, 1, kNumTagIds, "board: min_tags");
+  CheckFromTo(min_april_tags, 1, kNumAprilTagIds, "board: min_april_tags");
   CheckAbove(max_rms_px, 0, "board: max_rms_px");
 }
 
-Eigen::Matrix<double, 2, 4> TagCornersOnBoard(const Board& board, int index) {
-  const double pitch = board.tag_size + board.gap;
+Eigen::Matrix<double, 2, 4> AprilTagCornersOnBoard(const Board& board, int index) {
+  const double pitch = board.april_tag_size + board.gap;
   const int stride = board.numbering.stride > 0 ? board.numbering.stride : board.columns;
   const Eigen::Vector2i place =
       board.numbering.grid_from_count * Eigen::Vector2i(index % stride, index / stride);
@@ -264,90 +51,8 @@ Eigen::Matrix<double, 2, 4> TagCornersOnBoard(const Board& board, int index) {
   Eigen::Matrix<double, 2, 4> corners;
   corners << 0, 1, 1, 0,  //
       0, 0, 1, 1;
-  corners *= board.tag_size;
+  corners *= board.april_tag_size;
   return corners.colwise() + top_left;
-}
-
-BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
-                           const Board& given,
-                           const BoardOptions& options) {
-  given.Check();
-  options.Check();
-  CheckSizes(photographs);
-  if (photographs.empty()) throw Error("calibrate board: no photographs");
-  const int width_px = photographs.front().srgb_grey.width;
-  const int height_px = photographs.front().srgb_grey.height;
-
-  // Measure with a lens without distortion first.
-  const LensVector no_lens{
-      2 * std::atan(0.5), static_cast<double>(width_px) / height_px, 0, 0, 0, 0};
-  const Camera straight = CameraFromLensVector(no_lens, width_px, height_px);
-  std::vector<std::vector<TagDetection>> detections(photographs.size());
-  tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
-    detections[i] = DetectTags(photographs[i].srgb_grey);
-  });
-  const Board board = FindBoardLayout(given, detections);
-  std::vector<std::vector<TagCorners>> tags(photographs.size());
-  tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
-    tags[i] = MeasureShot(board, LinearFromGrey(photographs[i].srgb_grey), detections[i], straight);
-  });
-  const auto seen = [&] { return DescribeSeenBoard(board, detections); };
-
-  BoardResult result;
-  result.layout = DescribeLayout(board);
-  std::vector<BoardShot> shots;
-  for (size_t i = 0; i < photographs.size(); ++i) {
-    result.photographs.push_back({photographs[i].name, 0, 0, {}});
-    if (static_cast<int>(tags[i].size()) < options.min_tags) continue;
-    shots.push_back({i, tags[i], {}});
-  }
-  if (shots.size() < kMinPhotographs) {
-    throw Error("calibrate board: " + std::to_string(shots.size()) + " of " +
-                std::to_string(photographs.size()) + " photographs show the board with at least " +
-                std::to_string(options.min_tags) +
-                " of its tags; at least 3 are needed, from several sides" +
-                ExplainWhy(photographs, board, detections));
-  }
-
-  const LensVector start = EstimateLens(board, shots, width_px, height_px);
-  const Camera start_lens = CameraFromLensVector(start, width_px, height_px);
-  for (const BoardShot& shot : shots) {
-    CheckFit(RmsPx(board, shot, start_lens), kMaxStartMisfit * width_px, seen);
-  }
-  LensSolution solution = RefineLens(board, options, start, shots, width_px, height_px);
-  CheckFit(solution.rms_px, options.max_rms_px, seen);
-
-  // Measure again where the solution expects the edges, straight in its lens.
-  const Camera found = CameraFromLensVector(solution.lens, width_px, height_px);
-  tbb::parallel_for(size_t{0}, shots.size(), [&](size_t i) {
-    shots[i].tags = MeasureShot(board,
-                                LinearFromGrey(photographs[shots[i].photograph].srgb_grey),
-                                PredictDetections(board, shots[i], found),
-                                found);
-  });
-  std::erase_if(shots, [](const BoardShot& shot) { return shot.tags.empty(); });
-  solution = RefineLens(board, options, solution.lens, shots, width_px, height_px);
-
-  result.lens = MakeLens(solution);
-  result.num_corners = solution.num_corners;
-  result.rms_px = solution.rms_px;
-  const Camera final_lens = CameraFromLensVector(solution.lens, width_px, height_px);
-  for (const BoardShot& shot : shots) {
-    BoardSighting& sighting = result.photographs[shot.photograph];
-    sighting.num_tags = static_cast<int>(shot.tags.size());
-    sighting.rms_px = RmsPx(board, shot, final_lens);
-    sighting.cam_from_board = shot.cam_from_board;
-  }
-  result.remarks = Remarks(shots, solution, result.lens, width_px, height_px);
-  if (result.rms_px > kGoodRmsPx) {
-    const std::string text = seen();
-    if (!text.empty()) result.remarks.push_back(text);
-    const std::string as_given =
-        " --columns " + std::to_string(board.columns) + " --rows " + std::to_string(board.rows);
-    result.shows_other_board =
-        text.find(" --columns ") != std::string::npos && text.find(as_given) == std::string::npos;
-  }
-  return result;
 }
 
 }  // namespace groundglass

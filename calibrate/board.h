@@ -2,66 +2,57 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/formats/lens.h"
-#include "scene/frames.h"
 #include "scene/image.h"
 
 #include <Eigen/Dense>
 
 #include <filesystem>
-#include <span>
-#include <string>
-#include <vector>
 
 namespace groundglass {
 
-// Which tag of a board has which number. That of number first_id + i stands at this place of the
-// grid, in steps of one tag from the first, in the tags' own directions (x right, y down):
+// Which AprilTag of a board has which number. That of number first_id + i stands at this place of
+// the grid, in steps of one AprilTag from the first, in the AprilTags' own directions (x right, y
+// down):
 //   grid_from_count * (i % stride, i / stride)
 struct BoardNumbering {
-  int stride = 0;  // tags before the next row begins; 0: as many as the board has columns
+  int stride = 0;  // AprilTags before the next row begins; 0: as many as the board has columns
   Eigen::Matrix2i grid_from_count = Eigen::Matrix2i::Identity();
 };
 
 // A flat grid of AprilTags of the family tag36h11 (Olson 2011), as DrawBoard draws it numbered row
 // by row from the top left. Lengths are in any one unit: a lens does not depend on it. Boards that
-// are numbered in another order, or whose tags are turned (OpenCV's) or have a border of two cells
-// and squares between them (Kalibr's), are told by their photographs.
-// The board's frame is the first tag's: x right, y down, z into the board; its origin is that tag's
-// top-left black corner.
+// are numbered in another order, or whose AprilTags are turned (OpenCV's) or have a border of two
+// cells and squares between them (Kalibr's), are told by their photographs. The board's frame is
+// the first AprilTag's: x right, y down, z into the board; its origin is that AprilTag's top-left
+// black corner.
 struct Board {
   int columns = 6;
   int rows = 4;
-  double tag_size = 1;   // edge of a tag's black square
-  double gap = 0.25;     // white between neighbouring black squares
-  int first_id = 0;      // the lowest number; the family has 587
-  int border_cells = 1;  // of a tag's black border; 2 is Kalibr's
+  double april_tag_size = 1;  // edge of an AprilTag's black square
+  double gap = 0.25;          // white between neighbouring black squares
+  int first_id = 0;           // the lowest number; the family has 587
+  int border_cells = 1;       // of an AprilTag's black border; 2 is Kalibr's
   BoardNumbering numbering;
 
   void Check() const;  // throws Error naming the first field out of range
 };
 
-// The four black corners of a board's tag: top left, top right, bottom right, bottom left.
+// The four black corners of a board's AprilTag: top left, top right, bottom right, bottom left.
 // `index` counts from 0 in the order of the numbers.
-Eigen::Matrix<double, 2, 4> TagCornersOnBoard(const Board& board, int index);
+Eigen::Matrix<double, 2, 4> AprilTagCornersOnBoard(const Board& board, int index);
 
 // The board as a picture to print: black 0, white 255, one channel, a white margin and a line
 // below that says what to measure after printing.
 Image8 DrawBoard(const Board& board);
 
-// A photograph of the board: 8-bit sRGB grey, one channel.
-struct BoardPhotograph {
-  std::string name;
-  Image8 srgb_grey;
-};
-
+// Of CalibrateBoard.
 struct BoardOptions {
   // Free the second distortion coefficient as well: for wide lenses, with the board seen up to
   // the frame's corners.
   bool refine_k2 = false;
 
-  // A photograph takes part if it shows at least this many of the board's tags.
-  int min_tags = 4;
+  // A photograph takes part if it shows at least this many of the board's AprilTags.
+  int min_april_tags = 4;
 
   // The corners must fit the board this well, else its description or its flatness is at fault.
   // Pixels.
@@ -70,37 +61,8 @@ struct BoardOptions {
   void Check() const;
 };
 
-// What one photograph said.
-struct BoardSighting {
-  std::string name;
-  int num_tags = 0;   // of the board, found and used; 0 if the photograph took no part
-  double rms_px = 0;  // of its corners, each axis apart
-  RigidTransform cam_from_board;
-};
-
-struct BoardResult {
-  Lens lens;                               // deviations are scaled by how well the corners fit
-  std::vector<BoardSighting> photographs;  // in the order given
-  int num_corners = 0;
-  double rms_px = 0;  // over all corners, each axis apart
-  // How the photographs show the board, if not as DrawBoard draws it; one line, for a person.
-  std::string layout;
-  // What would make the lens better known; one line each, for a person.
-  std::vector<std::string> remarks;
-  // The corners miss the board, and the pictures show another one, which the last remark describes.
-  bool shows_other_board = false;
-};
-
 // Reads Kalibr's target file (target_type: aprilgrid, tagCols, tagRows, tagSize, tagSpacing), whose
-// tagSpacing is the gap as a share of the tag. Throws Error naming file and line.
+// tagSpacing is the gap as a share of the AprilTag. Throws Error naming file and line.
 Board ReadKalibrTarget(const std::filesystem::path& file);
-
-// Finds the lens that took these photographs of a board: detects the tags, measures their corners
-// where the fitted black edges meet, starts from homographies (Zhang 2000), and refines the lens
-// and one pose for each photograph with Ceres. Throws Error if the photographs differ in size, if
-// fewer than three show the board, or if the corners do not fit it.
-BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
-                           const Board& board,
-                           const BoardOptions& options = {});
 
 }  // namespace groundglass

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "calibrate/april_tag_detection.h"
 #include "calibrate/board.h"
-#include "calibrate/tag_detection.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -12,7 +12,7 @@
 namespace groundglass {
 namespace {
 
-// A tag's cell is about this wide (pixels): fine enough for any printer.
+// An AprilTag's cell is about this wide (pixels): fine enough for any printer.
 constexpr int kMinCellPx = 32;
 constexpr int kMaxCellPx = 64;
 
@@ -21,7 +21,7 @@ int ChooseCellPx(const Board& board) {
   int best_px = kMinCellPx;
   double best_error = 1;
   for (int cell_px = kMinCellPx; cell_px <= kMaxCellPx; ++cell_px) {
-    const double gap_px = board.gap / board.tag_size * kTagCells * cell_px;
+    const double gap_px = board.gap / board.april_tag_size * kAprilTagCells * cell_px;
     const double error = std::abs(gap_px - std::round(gap_px)) / gap_px;
     if (error < best_error - 1e-9) {
       best_error = error;
@@ -36,18 +36,18 @@ int ChooseCellPx(const Board& board) {
 Image8 DrawBoard(const Board& board) {
   board.Check();
   const int cell_px = ChooseCellPx(board);
-  const int tag_px = kTagCells * cell_px;
-  const int gap_px = static_cast<int>(std::lround(board.gap / board.tag_size * tag_px));
+  const int april_tag_px = kAprilTagCells * cell_px;
+  const int gap_px = static_cast<int>(std::lround(board.gap / board.april_tag_size * april_tag_px));
   const int margin_px = std::max(gap_px, 2 * cell_px);
-  const int width_px = 2 * margin_px + board.columns * (tag_px + gap_px) - gap_px;
-  const int height_px = 2 * margin_px + board.rows * (tag_px + gap_px) - gap_px;
+  const int width_px = 2 * margin_px + board.columns * (april_tag_px + gap_px) - gap_px;
+  const int height_px = 2 * margin_px + board.rows * (april_tag_px + gap_px) - gap_px;
   Image8 picture(width_px, height_px + 2 * cell_px, 1, 255);
   for (int index = 0; index < board.columns * board.rows; ++index) {
-    const TagPattern is_white = GetTagPattern(board.first_id + index);
-    const int left = margin_px + index % board.columns * (tag_px + gap_px);
-    const int top = margin_px + index / board.columns * (tag_px + gap_px);
-    for (int y = 0; y < tag_px; ++y) {
-      for (int x = 0; x < tag_px; ++x) {
+    const AprilTagPattern is_white = GetAprilTagPattern(board.first_id + index);
+    const int left = margin_px + index % board.columns * (april_tag_px + gap_px);
+    const int top = margin_px + index / board.columns * (april_tag_px + gap_px);
+    for (int y = 0; y < april_tag_px; ++y) {
+      for (int x = 0; x < april_tag_px; ++x) {
         if (!is_white(y / cell_px, x / cell_px)) *picture.At(left + x, top + y) = 0;
       }
     }

@@ -13,17 +13,17 @@
 namespace groundglass {
 namespace {
 
-// Photographs that are asked at most: those with the most tags.
+// Photographs that are asked at most: those with the most AprilTags.
 constexpr size_t kMostPhotographs = 4;
-// A board's own distortion-free fit lies below this share of a tag's side.
+// A board's own distortion-free fit lies below this share of an AprilTag's side.
 constexpr double kGoodMisfit = 0.08;
 // A lens with strong distortion or a gap measured wrongly reaches this; a wrong order is far
 // beyond.
 constexpr double kPlausibleMisfit = 0.3;
 
-using Detections = std::vector<std::vector<TagDetection>>;
+using Detections = std::vector<std::vector<AprilTagDetection>>;
 
-// The eight ways to lay the count along the tags' right and down.
+// The eight ways to lay the count along the AprilTags' right and down.
 std::array<Eigen::Matrix2i, 8> AllGrids() {
   std::array<Eigen::Matrix2i, 8> grids;
   for (int i = 0; i < 8; ++i) {
@@ -37,51 +37,52 @@ std::array<Eigen::Matrix2i, 8> AllGrids() {
 
 std::vector<BoardShot> MakeShots(const Board& board, const Detections& detections) {
   std::vector<BoardShot> shots;
-  for (const std::vector<TagDetection>& tags : detections) {
+  for (const std::vector<AprilTagDetection>& april_tags : detections) {
     BoardShot& shot = shots.emplace_back();
-    for (const TagDetection& detection : tags) {
+    for (const AprilTagDetection& detection : april_tags) {
       const int index = detection.id - board.first_id;
       if (index < 0 || index >= board.columns * board.rows) continue;
-      TagCorners& tag = shot.tags.emplace_back();
-      tag.id = index;
-      tag.corners_px = Eigen::Map<const Eigen::Matrix<double, 8, 1>>(detection.corners_px.data());
+      AprilTagCorners& april_tag = shot.april_tags.emplace_back();
+      april_tag.id = index;
+      april_tag.corners_px =
+          Eigen::Map<const Eigen::Matrix<double, 8, 1>>(detection.corners_px.data());
     }
   }
-  std::erase_if(shots, [](const BoardShot& shot) { return shot.tags.size() < 3; });
+  std::erase_if(shots, [](const BoardShot& shot) { return shot.april_tags.size() < 3; });
   std::stable_sort(shots.begin(), shots.end(), [](const BoardShot& a, const BoardShot& b) {
-    return a.tags.size() > b.tags.size();
+    return a.april_tags.size() > b.april_tags.size();
   });
   if (shots.size() > kMostPhotographs) shots.resize(kMostPhotographs);
   return shots;
 }
 
-// How far the corners lie from a flat board without distortion, as a share of the tags' sides, on
-// average over the photographs.
+// How far the corners lie from a flat board without distortion, as a share of the AprilTags' sides,
+// on average over the photographs.
 double Misfit(const Board& board, const std::vector<BoardShot>& shots) {
   double sum = 0;
   for (const BoardShot& shot : shots) {
     Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
     double side_px = 0;
-    for (const TagCorners& tag : shot.tags) {
-      center_px += tag.corners_px.head<2>() / static_cast<double>(shot.tags.size());
-      side_px += (tag.corners_px.head<2>() - tag.corners_px.segment<2>(4)).norm() / std::sqrt(2.0) /
-                 static_cast<double>(shot.tags.size());
+    for (const AprilTagCorners& april_tag : shot.april_tags) {
+      center_px += april_tag.corners_px.head<2>() / static_cast<double>(shot.april_tags.size());
+      side_px += (april_tag.corners_px.head<2>() - april_tag.corners_px.segment<2>(4)).norm() /
+                 std::sqrt(2.0) / static_cast<double>(shot.april_tags.size());
     }
     double spread_px = side_px;
-    for (const TagCorners& tag : shot.tags) {
-      spread_px = std::max(spread_px, (tag.corners_px.head<2>() - center_px).norm());
+    for (const AprilTagCorners& april_tag : shot.april_tags) {
+      spread_px = std::max(spread_px, (april_tag.corners_px.head<2>() - center_px).norm());
     }
     const Eigen::Matrix3d homography = EstimateHomography(board, shot, center_px, spread_px);
     double squared_px = 0;
-    for (const TagCorners& tag : shot.tags) {
-      const Eigen::Matrix<double, 2, 4> on_board = TagCornersOnBoard(board, tag.id);
+    for (const AprilTagCorners& april_tag : shot.april_tags) {
+      const Eigen::Matrix<double, 2, 4> on_board = AprilTagCornersOnBoard(board, april_tag.id);
       for (int corner = 0; corner < 4; ++corner) {
         const Eigen::Vector3d seen = homography * on_board.col(corner).homogeneous();
-        squared_px +=
-            (seen.hnormalized() + center_px - tag.corners_px.segment<2>(2 * corner)).squaredNorm();
+        squared_px += (seen.hnormalized() + center_px - april_tag.corners_px.segment<2>(2 * corner))
+                          .squaredNorm();
       }
     }
-    sum += std::sqrt(squared_px / (4.0 * static_cast<double>(shot.tags.size()))) / side_px;
+    sum += std::sqrt(squared_px / (4.0 * static_cast<double>(shot.april_tags.size()))) / side_px;
   }
   return sum / static_cast<double>(shots.size());
 }
@@ -96,7 +97,7 @@ double FitNumbering(const std::vector<int>& strides,
     for (const Eigen::Matrix2i& grid : AllGrids()) {
       board.numbering = {stride, grid};
       const double misfit = Misfit(board, shots);
-      // Where few tags are seen several fit alike: then the first, which is the usual one.
+      // Where few AprilTags are seen several fit alike: then the first, which is the usual one.
       if (misfit < 0.5 * least) {
         least = misfit;
         best = board.numbering;
@@ -112,13 +113,17 @@ double FitNumbering(const std::vector<int>& strides,
 Board FindBoardLayout(const Board& given, Detections& detections) {
   size_t num_narrow = 0;
   size_t num_wide = 0;
-  for (const std::vector<TagDetection>& tags : detections) {
-    for (const TagDetection& tag : tags) (tag.border_cells == 1 ? num_narrow : num_wide) += 1;
+  for (const std::vector<AprilTagDetection>& april_tags : detections) {
+    for (const AprilTagDetection& april_tag : april_tags) {
+      (april_tag.border_cells == 1 ? num_narrow : num_wide) += 1;
+    }
   }
   Board board = given;
   board.border_cells = num_wide > num_narrow ? 2 : 1;
-  for (std::vector<TagDetection>& tags : detections) {
-    std::erase_if(tags, [&](const auto& tag) { return tag.border_cells != board.border_cells; });
+  for (std::vector<AprilTagDetection>& april_tags : detections) {
+    std::erase_if(april_tags, [&](const auto& april_tag) {
+      return april_tag.border_cells != board.border_cells;
+    });
   }
   const std::vector<BoardShot> shots = MakeShots(board, detections);
   if (shots.empty()) return board;
@@ -150,10 +155,10 @@ std::string DescribeLayout(const Board& board) {
 std::string DescribeSeenBoard(const Board& given, const Detections& detections) {
   int first = std::numeric_limits<int>::max();
   int last = -1;
-  for (const std::vector<TagDetection>& tags : detections) {
-    for (const TagDetection& tag : tags) {
-      first = std::min(first, tag.id);
-      last = std::max(last, tag.id);
+  for (const std::vector<AprilTagDetection>& april_tags : detections) {
+    for (const AprilTagDetection& april_tag : april_tags) {
+      first = std::min(first, april_tag.id);
+      last = std::max(last, april_tag.id);
     }
   }
   if (last < 0) return "";
@@ -172,7 +177,7 @@ std::string DescribeSeenBoard(const Board& given, const Detections& detections) 
   std::vector<int> strides;
   for (int stride = 2; stride <= std::min(count, 40); ++stride) strides.push_back(stride);
   for (double share = 0.1; share < 1.01; share += 0.05) {
-    seen.gap = share * seen.tag_size;
+    seen.gap = share * seen.april_tag_size;
     const double misfit = FitNumbering(strides, shots, seen);
     if (misfit < least) {
       least = misfit;
@@ -181,10 +186,10 @@ std::string DescribeSeenBoard(const Board& given, const Detections& detections) 
   }
   if (least > kGoodMisfit) return text;
   // The gap between two of the steps tried.
-  for (double share = best.gap / best.tag_size - 0.045; share < 1.06; share += 0.005) {
-    if (share > best.gap / best.tag_size + 0.05) break;
+  for (double share = best.gap / best.april_tag_size - 0.045; share < 1.06; share += 0.005) {
+    if (share > best.gap / best.april_tag_size + 0.05) break;
     seen = best;
-    seen.gap = share * seen.tag_size;
+    seen.gap = share * seen.april_tag_size;
     const double misfit = Misfit(seen, shots);
     if (misfit < least) {
       least = misfit;
@@ -192,12 +197,12 @@ std::string DescribeSeenBoard(const Board& given, const Detections& detections) 
     }
   }
   const int stride = best.numbering.stride;
-  const double share = std::round(100 * best.gap / best.tag_size) / 100;
+  const double share = std::round(100 * best.gap / best.april_tag_size) / 100;
   return text + " in rows of " + std::to_string(stride) + ", with a gap of " + FormatNumber(share) +
          " of the tag's size: --columns " + std::to_string(stride) + " --rows " +
          std::to_string((count + stride - 1) / stride) + " --first-id " + std::to_string(first) +
-         " --tag-size " + FormatNumber(given.tag_size) + " --gap " +
-         FormatNumber(std::round(1000 * share * given.tag_size) / 1000);
+         " --tag-size " + FormatNumber(given.april_tag_size) + " --gap " +
+         FormatNumber(std::round(1000 * share * given.april_tag_size) / 1000);
 }
 
 }  // namespace groundglass

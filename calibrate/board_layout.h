@@ -2,18 +2,18 @@
 // Part of Groundglass.
 #pragma once
 
+#include "calibrate/april_tag_detection.h"
 #include "calibrate/board.h"
-#include "calibrate/tag_detection.h"
 
 #include <string>
 #include <vector>
 
 namespace groundglass {
 
-// The board as the photographs show it: border, order of the numbers and the tags' turn are theirs,
-// size, columns, rows and gap as given (columns and rows may be swapped). Detections with the other
-// border are removed.
-Board FindBoardLayout(const Board& given, std::vector<std::vector<TagDetection>>& detections);
+// The board as the photographs show it: border, order of the numbers and the AprilTags' turn are
+// theirs, size, columns, rows and gap as given (columns and rows may be swapped). Detections with
+// the other border are removed.
+Board FindBoardLayout(const Board& given, std::vector<std::vector<AprilTagDetection>>& detections);
 
 // In words, if it is not as DrawBoard draws it: "tags with a border of two cells, numbered along
 // the rows from the bottom left".
@@ -23,6 +23,6 @@ std::string DescribeLayout(const Board& board);
 // tags 0 to 23 in rows of 6, with a gap of 0.25 of the tag: --columns 6 ...". Empty if they do not
 // tell.
 std::string DescribeSeenBoard(const Board& given,
-                              const std::vector<std::vector<TagDetection>>& detections);
+                              const std::vector<std::vector<AprilTagDetection>>& detections);
 
 }  // namespace groundglass

@@ -3,27 +3,28 @@
 #include "calibrate/board_solve.h"
 
 #include "scene/error.h"
+#include "scene/quantile.h"
 #include "scene/symmetric_eigen.h"
 
 #include <ceres/ceres.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace groundglass {
 namespace {
 
-// A tag whose whitened residual is this many times the median tag's is bent, misread or covered.
+// An AprilTag whose whitened residual is this many times the median AprilTag's is bent, misread or
+// covered.
 constexpr double kOutlierFactor = 6;
 
-// Whitened residual of a tag's four corners, in units of an edge point's noise:
+// Whitened residual of an AprilTag's four corners, in units of an edge point's noise:
 //   r = S (p - o),  S^T S = information,  p_i = project(lens, R X_i + t)
 // with project as in scene/camera_model.h and view_tag.h:
 //   f_x = W / 2 / tan(v / 2), f_y = f_x a H / W, c = (W / 2 + shift_x W, H / 2 + shift_y W f_y/f_x)
 // Blocks: lens 6 (LensVector), rotation 4 (cam_from_board, unit quaternion x y z w), translation 3
 // (the board's unit). Residual 8. A corner behind the camera fails the evaluation.
-struct TagResidual {
+struct AprilTagResidual {
   Eigen::Matrix<double, 2, 4> corners_on_board;
   Eigen::Matrix<double, 8, 1> observed_px;
   Eigen::Matrix<double, 8, 8> root_information;
@@ -77,11 +78,14 @@ struct TagResidual {
   }
 };
 
-TagResidual MakeResidual(const Board& board, const TagCorners& tag, int width_px, int height_px) {
-  TagResidual residual;
-  residual.corners_on_board = TagCornersOnBoard(board, tag.id);
-  residual.observed_px = tag.corners_px;
-  residual.root_information = tag.information.llt().matrixU();
+AprilTagResidual MakeResidual(const Board& board,
+                              const AprilTagCorners& april_tag,
+                              int width_px,
+                              int height_px) {
+  AprilTagResidual residual;
+  residual.corners_on_board = AprilTagCornersOnBoard(board, april_tag.id);
+  residual.observed_px = april_tag.corners_px;
+  residual.root_information = april_tag.information.llt().matrixU();
   residual.width_px = width_px;
   residual.height_px = height_px;
   return residual;
@@ -92,13 +96,15 @@ struct Pose {
   Eigen::Vector3d translation;
 };
 
-// One tag's residuals as the solution leaves them.
-struct TagFit {
+// One AprilTag's residuals as the solution leaves them.
+struct AprilTagFit {
   double whitened = 0;    // norm
   double squared_px = 0;  // sum of squares over its 8 coordinates
 };
 
-TagFit EvaluateTag(const TagResidual& residual, const LensVector& lens, const Pose& pose) {
+AprilTagFit EvaluateAprilTag(const AprilTagResidual& residual,
+                             const LensVector& lens,
+                             const Pose& pose) {
   Eigen::Matrix<double, 8, 1> projected_px;
   // The solver only returns poses that it could evaluate.
   residual.Project(
@@ -127,15 +133,17 @@ Eigen::Matrix3d EstimateHomography(const Board& board,
                                    const BoardShot& shot,
                                    const Eigen::Vector2d& center_px,
                                    double scale_px) {
-  const double board_scale = board.columns * (board.tag_size + board.gap);
+  const double board_scale = board.columns * (board.april_tag_size + board.gap);
   // The normal matrix of the two equations that each corner gives.
   using Vector9 = Eigen::Matrix<double, 9, 1>;
   Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
-  for (const TagCorners& tag : shot.tags) {
-    const Eigen::Matrix<double, 2, 4> on_board = TagCornersOnBoard(board, tag.id) / board_scale;
+  for (const AprilTagCorners& april_tag : shot.april_tags) {
+    const Eigen::Matrix<double, 2, 4> on_board =
+        AprilTagCornersOnBoard(board, april_tag.id) / board_scale;
     for (int corner = 0; corner < 4; ++corner) {
       const Eigen::Vector3d from = on_board.col(corner).homogeneous();
-      const Eigen::Vector2d to = (tag.corners_px.segment<2>(2 * corner) - center_px) / scale_px;
+      const Eigen::Vector2d to =
+          (april_tag.corners_px.segment<2>(2 * corner) - center_px) / scale_px;
       Vector9 equation;
       equation << from, Eigen::Vector3d::Zero(), -to.x() * from;
       normal += equation * equation.transpose();
@@ -230,10 +238,10 @@ LensSolution RefineLens(const Board& board,
     for (size_t i = 0; i < shots.size(); ++i) {
       double* rotation = poses[i].rotation.coeffs().data();
       problem.AddParameterBlock(rotation, 4, new ceres::EigenQuaternionManifold);
-      for (const TagCorners& tag : shots[i].tags) {
+      for (const AprilTagCorners& april_tag : shots[i].april_tags) {
         problem.AddResidualBlock(
-            new ceres::AutoDiffCostFunction<TagResidual, 8, 6, 4, 3>(
-                new TagResidual(MakeResidual(board, tag, width_px, height_px))),
+            new ceres::AutoDiffCostFunction<AprilTagResidual, 8, 6, 4, 3>(
+                new AprilTagResidual(MakeResidual(board, april_tag, width_px, height_px))),
             nullptr,
             lens.data(),
             rotation,
@@ -258,26 +266,24 @@ LensSolution RefineLens(const Board& board,
     double squared = 0;
     double squared_px = 0;
     for (size_t i = 0; i < shots.size(); ++i) {
-      for (const TagCorners& tag : shots[i].tags) {
-        const TagFit fit =
-            EvaluateTag(MakeResidual(board, tag, width_px, height_px), lens, poses[i]);
+      for (const AprilTagCorners& april_tag : shots[i].april_tags) {
+        const AprilTagFit fit =
+            EvaluateAprilTag(MakeResidual(board, april_tag, width_px, height_px), lens, poses[i]);
         whitened.push_back(fit.whitened);
         squared += fit.whitened * fit.whitened;
         squared_px += fit.squared_px;
       }
     }
-    std::vector<double> sorted = whitened;
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    const double limit = kOutlierFactor * sorted[sorted.size() / 2];
+    const double limit = kOutlierFactor * UpperMedian(whitened);
     size_t next = 0;
     size_t removed = 0;
     for (BoardShot& shot : shots) {
-      removed +=
-          std::erase_if(shot.tags, [&](const TagCorners&) { return whitened[next++] > limit; });
+      removed += std::erase_if(shot.april_tags,
+                               [&](const AprilTagCorners&) { return whitened[next++] > limit; });
     }
     if (removed > 0 && round < 5) {
       for (size_t i = shots.size(); i-- > 0;) {
-        if (!shots[i].tags.empty()) continue;
+        if (!shots[i].april_tags.empty()) continue;
         shots.erase(shots.begin() + static_cast<std::ptrdiff_t>(i));
         poses.erase(poses.begin() + static_cast<std::ptrdiff_t>(i));
       }

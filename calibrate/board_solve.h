@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
+#include "calibrate/april_tag_corners.h"
 #include "calibrate/board.h"
-#include "calibrate/tag_corners.h"
 #include "scene/camera.h"
 
 #include <Eigen/Dense>
@@ -12,10 +12,10 @@
 
 namespace groundglass {
 
-// The tags measured in one photograph and where its camera stood.
+// The AprilTags measured in one photograph and where its camera stood.
 struct BoardShot {
-  size_t photograph = 0;         // which one, in the order given
-  std::vector<TagCorners> tags;  // id: index on the board
+  size_t photograph = 0;                    // which one, in the order given
+  std::vector<AprilTagCorners> april_tags;  // id: index on the board
   RigidTransform cam_from_board;
 };
 
@@ -50,8 +50,8 @@ struct LensSolution {
 };
 
 // Minimises the corners' whitened distances from the projected board over the lens and all poses.
-// Tags that stay far outside the others' spread are removed, and shots left without tags. Throws
-// Error if the photographs leave the lens undetermined.
+// AprilTags that stay far outside the others' spread are removed, and shots left without AprilTags.
+// Throws Error if the photographs leave the lens undetermined.
 LensSolution RefineLens(const Board& board,
                         const BoardOptions& options,
                         const LensVector& start,

@@ -45,8 +45,8 @@ Board ReadKalibrTarget(const std::filesystem::path& file) {
   Board board;
   board.columns = static_cast<int>(std::min(number("tagCols"), 1000.0));
   board.rows = static_cast<int>(std::min(number("tagRows"), 1000.0));
-  board.tag_size = number("tagSize");
-  board.gap = number("tagSpacing") * board.tag_size;
+  board.april_tag_size = number("tagSize");
+  board.gap = number("tagSpacing") * board.april_tag_size;
   const Value& offset = values["codeoffset"];
   if (offset.line != 0 && offset.text != "0") {
     board.first_id = static_cast<int>(std::min(number("codeOffset"), 1e6));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "calibrate/board.h"
+#include "calibrate/calibrate_board.h"
 #include "cli/commands.h"
 #include "cli/json_output.h"
 #include "scene/error.h"
@@ -74,18 +74,20 @@ nlohmann::ordered_json JsonFromResult(const BoardResult& result) {
   json["photographs"] = nlohmann::ordered_json::array();
   for (const BoardSighting& sighting : result.photographs) {
     json["photographs"].push_back(
-        {{"name", sighting.name}, {"tags", sighting.num_tags}, {"rms_px", sighting.rms_px}});
+        {{"name", sighting.name}, {"tags", sighting.num_april_tags}, {"rms_px", sighting.rms_px}});
   }
   return json;
 }
 
 void PrintResult(const BoardResult& result) {
   for (const BoardSighting& sighting : result.photographs) {
-    if (sighting.num_tags == 0) {
+    if (sighting.num_april_tags == 0) {
       std::printf("%s: too little of the board, left out\n", sighting.name.c_str());
     } else {
-      std::printf(
-          "%s: %d tags, %.3f px\n", sighting.name.c_str(), sighting.num_tags, sighting.rms_px);
+      std::printf("%s: %d tags, %.3f px\n",
+                  sighting.name.c_str(),
+                  sighting.num_april_tags,
+                  sighting.rms_px);
     }
   }
   if (!result.layout.empty()) std::printf("board: %s\n", result.layout.c_str());
@@ -154,7 +156,9 @@ void AddBoardCommand(CLI::App* calibrate, int& exit_status) {
   command->add_option("--columns", arguments->board.columns, "tags in a row")
       ->capture_default_str();
   command->add_option("--rows", arguments->board.rows, "tags in a column")->capture_default_str();
-  command->add_option("--tag-size", arguments->board.tag_size, "a black square's edge, in any unit")
+  command
+      ->add_option(
+          "--tag-size", arguments->board.april_tag_size, "a black square's edge, in any unit")
       ->capture_default_str();
   command->add_option("--gap", arguments->board.gap, "white between two squares, same unit")
       ->capture_default_str();

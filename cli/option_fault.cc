@@ -14,7 +14,8 @@ namespace groundglass {
 namespace {
 
 // A field "texel_size" is filled by --texel-size; these have options of other names.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kOtherNames = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kOtherNames = {{
+    {"april_tag_size", "tag-size"},
     {"max_page_texels", "max-texture"},
     {"max_memory_mb", "memory"},
     {"height_deg", "orbit-height"},

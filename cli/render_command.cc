@@ -6,6 +6,7 @@
 #include "invrender/tiles1988/tiles.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/model_io.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/textured_model_io.h"
 #include "scene/formats/view_io.h"

@@ -54,57 +54,14 @@ struct PixelRays {
   }
 };
 
-class PathTracer {
+// The world's faces as rays from one place meet them: where, and with what light.
+class SurfaceShader {
  public:
-  PathTracer(const RayScene& scene, const Camera& camera, uint64_t seed)
-      : scene_(scene),
-        camera_(camera),
-        seed_(seed),
-        sun_(scene.light.to_sun),
-        cells_(std::max(1, static_cast<int>(std::lround(std::sqrt(scene.rays_per_edge_pixel))))) {
-    origin_ = camera.PositionInWorld();
+  SurfaceShader(const RayScene& scene, const Eigen::Vector3d& origin)
+      : scene_(scene), origin_(origin) {
     for (int face = 0; face < static_cast<int>(scene.world.geometry.faces.size()); ++face) {
       planes_.push_back(ComputeFacePlane(scene.world.geometry, face));
     }
-  }
-
-  ImageF Render() const {
-    const int width = camera_.width_px;
-    const int height = camera_.height_px;
-    std::vector<Probe> probes(static_cast<size_t>(width + 1) * (height + 1));
-    tbb::parallel_for(tbb::blocked_range<int>(0, height + 1, 8), [&](const auto& rows) {
-      for (int y = rows.begin(); y != rows.end(); ++y) {
-        for (int x = 0; x <= width; ++x) {
-          probes[static_cast<size_t>(y) * (width + 1) + x] = ProbeAt(x, y);
-        }
-      }
-    });
-    ImageF radiance(width, height, 3);
-    tbb::parallel_for(tbb::blocked_range<int>(0, height, 8), [&](const auto& rows) {
-      for (int y = rows.begin(); y != rows.end(); ++y) {
-        for (int x = 0; x < width; ++x) {
-          const Probe* top = &probes[static_cast<size_t>(y) * (width + 1) + x];
-          const Probe* bottom = top + width + 1;
-          const bool is_uniform = top[0] == top[1] && top[0] == bottom[0] && top[0] == bottom[1] &&
-                                  (top[0].sun_bits == 0 || top[0].sun_bits == 15);
-          const PixelRays rays = RaysOf(x, y);
-          const Rgb color = is_uniform ? UniformPixel(rays, top[0]) : MixedPixel(rays, x, y);
-          for (int c = 0; c < 3; ++c) radiance.At(x, y)[c] = color[c];
-        }
-      }
-    });
-    return radiance;
-  }
-
- private:
-  PixelRays RaysOf(int x, int y) const {
-    const Eigen::Matrix3d world_from_cam = camera_.cam_from_world.rotation.transpose();
-    PixelRays rays;
-    rays.origin = origin_;
-    rays.corner = world_from_cam * UnprojectToCam(camera_, Eigen::Vector2d(x, y));
-    rays.step_x = world_from_cam * UnprojectToCam(camera_, Eigen::Vector2d(x + 1, y)) - rays.corner;
-    rays.step_y = world_from_cam * UnprojectToCam(camera_, Eigen::Vector2d(x, y + 1)) - rays.corner;
-    return rays;
   }
 
   // The side of a face that the ray meets, a little off its surface.
@@ -113,22 +70,6 @@ class PathTracer {
                               const Eigen::Vector3d& direction) const {
     const Eigen::Vector3d& normal = planes_[face].normal_in_world;
     return point + (normal.dot(direction) < 0 ? kOffSurface : -kOffSurface) * normal;
-  }
-
-  Probe ProbeAt(int x, int y) const {
-    const Eigen::Vector3d direction = UnprojectToWorld(camera_, Eigen::Vector2d(x, y));
-    const auto hit = scene_.visibility.FirstHit(origin_, direction);
-    if (!hit) return {};
-    Probe probe{hit->face, 0};
-    if (!scene_.light.is_sunny || !FacesSun(hit->face, direction)) return probe;
-    const Eigen::Vector3d point =
-        LiftedPoint(hit->face, origin_ + hit->distance * direction, direction);
-    for (int i = 0; i < 4; ++i) {
-      const Eigen::Vector3d to_rim = sun_.Toward(1, i * std::numbers::pi / 2);
-      if (!scene_.visibility.FirstHit(point, to_rim))
-        probe.sun_bits |= static_cast<uint8_t>(1 << i);
-    }
-    return probe;
   }
 
   bool FacesSun(int face, const Eigen::Vector3d& direction) const {
@@ -143,47 +84,6 @@ class PathTracer {
     if (std::abs(approach) < 1e-9) return 1e5;
     const double distance = (plane.offset - plane.normal_in_world.dot(origin_)) / approach;
     return distance > 0 ? distance : 1e5;
-  }
-
-  // One face, evenly in sun or in shadow: four filtered texture samples, no more rays.
-  Rgb UniformPixel(const PixelRays& rays, const Probe& probe) const {
-    if (probe.face == kSky) return SkyRadiance(scene_.light, rays.Direction(0.5, 0.5));
-    Rgb sum = Rgb::Zero();
-    for (int i = 0; i < 4; ++i) {
-      const Eigen::Vector3d direction = rays.Direction(0.25 + 0.5 * (i % 2), 0.25 + 0.5 * (i / 2));
-      sum += Shade(rays,
-                   probe.face,
-                   direction,
-                   DistanceAlong(probe.face, direction),
-                   probe.sun_bits != 0,
-                   0.5);
-    }
-    return sum / 4;
-  }
-
-  // A ray in each cell of a grid, 4 x 4 for 16.
-  Rgb MixedPixel(const PixelRays& rays, int x, int y) const {
-    Rgb sum = Rgb::Zero();
-    for (int i = 0; i < cells_ * cells_; ++i) {
-      const uint64_t hash = HashOf(seed_, x, y, i);
-      const Eigen::Vector3d direction = rays.Direction(
-          (i % cells_ + UniformOf(hash)) / cells_, (i / cells_ + UniformOf(HashOf(hash))) / cells_);
-      const auto hit = scene_.visibility.FirstHit(origin_, direction);
-      if (!hit) {
-        sum += SkyRadiance(scene_.light, direction);
-        continue;
-      }
-      bool in_sun = false;
-      if (scene_.light.is_sunny && FacesSun(hit->face, direction)) {
-        const Eigen::Vector3d point =
-            LiftedPoint(hit->face, origin_ + hit->distance * direction, direction);
-        const double radius = std::sqrt(UniformOf(HashOf(hash, 1)));
-        const double angle = 2 * std::numbers::pi * UniformOf(HashOf(hash, 2));
-        in_sun = !scene_.visibility.FirstHit(point, sun_.Toward(radius, angle));
-      }
-      sum += Shade(rays, hit->face, direction, hit->distance, in_sun, 1.0 / cells_);
-    }
-    return sum / (cells_ * cells_);
   }
 
   // Light that leaves a place towards the camera; `share` is the sample's part of the pixel's
@@ -221,6 +121,7 @@ class PathTracer {
     return color + haze * (light.horizon - color);
   }
 
+ private:
   // What glass mirrors, by Schlick's approximation of Fresnel's law with a little more for
   // coatings.
   Rgb MirrorRadiance(const Eigen::Vector3d& point,
@@ -263,12 +164,137 @@ class PathTracer {
   }
 
   const RayScene& scene_;
+  Eigen::Vector3d origin_;
+  std::vector<FacePlane> planes_;
+};
+
+// Sends the rays of each pixel: first through the corners, to see whether it is all of a piece.
+class PathTracer {
+ public:
+  PathTracer(const RayScene& scene, const Camera& camera, uint64_t seed)
+      : scene_(scene),
+        camera_(camera),
+        seed_(seed),
+        sun_(scene.light.to_sun),
+        cells_(std::max(1, static_cast<int>(std::lround(std::sqrt(scene.rays_per_edge_pixel))))),
+        origin_(camera.PositionInWorld()),
+        shader_(scene, origin_) {}
+
+  ImageF Render() const {
+    const int width = camera_.width_px;
+    const int height = camera_.height_px;
+    const std::vector<Probe> probes = ProbeCorners();
+    ImageF radiance(width, height, 3);
+    tbb::parallel_for(tbb::blocked_range<int>(0, height, 8), [&](const auto& rows) {
+      for (int y = rows.begin(); y != rows.end(); ++y) {
+        for (int x = 0; x < width; ++x) {
+          const Probe* top = &probes[static_cast<size_t>(y) * (width + 1) + x];
+          const PixelRays rays = RaysOf(x, y);
+          const Rgb color =
+              IsUniform(top, top + width + 1) ? UniformPixel(rays, top[0]) : MixedPixel(rays, x, y);
+          for (int c = 0; c < 3; ++c) radiance.At(x, y)[c] = color[c];
+        }
+      }
+    });
+    return radiance;
+  }
+
+ private:
+  // What is seen through the corners of all pixels, row by row.
+  std::vector<Probe> ProbeCorners() const {
+    const int width = camera_.width_px;
+    const int height = camera_.height_px;
+    std::vector<Probe> probes(static_cast<size_t>(width + 1) * (height + 1));
+    tbb::parallel_for(tbb::blocked_range<int>(0, height + 1, 8), [&](const auto& rows) {
+      for (int y = rows.begin(); y != rows.end(); ++y) {
+        for (int x = 0; x <= width; ++x) {
+          probes[static_cast<size_t>(y) * (width + 1) + x] = ProbeAt(x, y);
+        }
+      }
+    });
+    return probes;
+  }
+
+  // All four corners of a pixel on one face, in full sun or in full shadow; or in the sky.
+  static bool IsUniform(const Probe* top, const Probe* bottom) {
+    return top[0] == top[1] && top[0] == bottom[0] && top[0] == bottom[1] &&
+           (top[0].sun_bits == 0 || top[0].sun_bits == 15);
+  }
+
+  PixelRays RaysOf(int x, int y) const {
+    const Eigen::Matrix3d world_from_cam = camera_.cam_from_world.rotation.transpose();
+    PixelRays rays;
+    rays.origin = origin_;
+    rays.corner = world_from_cam * UnprojectToCam(camera_, Eigen::Vector2d(x, y));
+    rays.step_x = world_from_cam * UnprojectToCam(camera_, Eigen::Vector2d(x + 1, y)) - rays.corner;
+    rays.step_y = world_from_cam * UnprojectToCam(camera_, Eigen::Vector2d(x, y + 1)) - rays.corner;
+    return rays;
+  }
+
+  Probe ProbeAt(int x, int y) const {
+    const Eigen::Vector3d direction = UnprojectToWorld(camera_, Eigen::Vector2d(x, y));
+    const auto hit = scene_.visibility.FirstHit(origin_, direction);
+    if (!hit) return {};
+    Probe probe{hit->face, 0};
+    if (!scene_.light.is_sunny || !shader_.FacesSun(hit->face, direction)) return probe;
+    const Eigen::Vector3d point =
+        shader_.LiftedPoint(hit->face, origin_ + hit->distance * direction, direction);
+    for (int i = 0; i < 4; ++i) {
+      const Eigen::Vector3d to_rim = sun_.Toward(1, i * std::numbers::pi / 2);
+      if (!scene_.visibility.FirstHit(point, to_rim))
+        probe.sun_bits |= static_cast<uint8_t>(1 << i);
+    }
+    return probe;
+  }
+
+  // One face, evenly in sun or in shadow: four filtered texture samples, no more rays.
+  Rgb UniformPixel(const PixelRays& rays, const Probe& probe) const {
+    if (probe.face == kSky) return SkyRadiance(scene_.light, rays.Direction(0.5, 0.5));
+    Rgb sum = Rgb::Zero();
+    for (int i = 0; i < 4; ++i) {
+      const Eigen::Vector3d direction = rays.Direction(0.25 + 0.5 * (i % 2), 0.25 + 0.5 * (i / 2));
+      sum += shader_.Shade(rays,
+                           probe.face,
+                           direction,
+                           shader_.DistanceAlong(probe.face, direction),
+                           probe.sun_bits != 0,
+                           0.5);
+    }
+    return sum / 4;
+  }
+
+  // A ray in each cell of a grid, 4 x 4 for 16.
+  Rgb MixedPixel(const PixelRays& rays, int x, int y) const {
+    Rgb sum = Rgb::Zero();
+    for (int i = 0; i < cells_ * cells_; ++i) {
+      const uint64_t hash = HashOf(seed_, x, y, i);
+      const Eigen::Vector3d direction = rays.Direction(
+          (i % cells_ + UniformOf(hash)) / cells_, (i / cells_ + UniformOf(HashOf(hash))) / cells_);
+      const auto hit = scene_.visibility.FirstHit(origin_, direction);
+      if (!hit) {
+        sum += SkyRadiance(scene_.light, direction);
+        continue;
+      }
+      bool in_sun = false;
+      if (scene_.light.is_sunny && shader_.FacesSun(hit->face, direction)) {
+        const Eigen::Vector3d point =
+            shader_.LiftedPoint(hit->face, origin_ + hit->distance * direction, direction);
+        const double radius = std::sqrt(UniformOf(HashOf(hash, 1)));
+        const double angle = 2 * std::numbers::pi * UniformOf(HashOf(hash, 2));
+        in_sun = !scene_.visibility.FirstHit(point, sun_.Toward(radius, angle));
+      }
+      sum += shader_.Shade(rays, hit->face, direction, hit->distance, in_sun, 1.0 / cells_);
+    }
+    return sum / (cells_ * cells_);
+  }
+
+  const RayScene& scene_;
   const Camera& camera_;
   uint64_t seed_;
   SunDisc sun_;
   int cells_;  // of a mixed pixel, each way
   Eigen::Vector3d origin_;
-  std::vector<FacePlane> planes_;
+  SurfaceShader shader_;
 };
 
 }  // namespace

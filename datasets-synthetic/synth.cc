@@ -218,8 +218,7 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
   WorldBuilder furnisher(furnished, SeedFor(recipe.seed, "occluders"));
   AddStandingOccluders(furnisher, site, recipe.occluders, recipe.seed);
 
-  const int num_steps = summary.num_photographs + summary.num_novel_views;
-  int num_done = 0;
+  ProgressCounter steps(progress, summary.num_photographs + summary.num_novel_views);
   for (size_t i = 0; i < plans.size(); ++i) {
     const PhotographPlan& plan = plans[i];
     SyntheticWorld world = furnished;
@@ -238,7 +237,7 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
                     model_visibility,
                     OccluderCodeOffset(model),
                     folder);
-    if (progress) progress(++num_done, num_steps, plan.name);
+    steps.Tell(plan.name);
   }
   for (const PlannedView& view : planned.novel_views) {
     WriteNovelView(recipe,
@@ -246,7 +245,7 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
                    {planned.world, clean_visibility, sky_map, overcast, recipe.photo.edge_rays},
                    model_visibility,
                    folder / "truth" / "novel");
-    if (progress) progress(++num_done, num_steps, view.name);
+    steps.Tell(view.name);
   }
   return summary;
 }

@@ -7,6 +7,7 @@
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/model_io.h"
 #include "scene/formats/registration_io.h"
 #include "scene/formats/textured_model_io.h"
 #include "scene/visibility.h"

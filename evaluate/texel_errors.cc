@@ -11,22 +11,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace groundglass {
 namespace {
-
-// Linear light of each 8-bit sRGB code.
-const std::array<float, 256>& LightOfCode() {
-  static const std::array<float, 256> kLight = [] {
-    std::array<float, 256> light;
-    for (int code = 0; code < 256; ++code) {
-      light[code] = LinearFromSrgb(static_cast<float>(code) / 255);
-    }
-    return light;
-  }();
-  return kLight;
-}
 
 double Levels(double linear) {
   return 255.0 * SrgbFromLinear(std::clamp(static_cast<float>(linear), 0.0f, 1.0f));
@@ -34,7 +23,7 @@ double Levels(double linear) {
 
 // Linear light between the middles of a page's texels.
 Eigen::Vector3d LightAt(const Image8& page, const Eigen::Vector2d& at) {
-  const std::array<float, 256>& light = LightOfCode();
+  const std::array<float, 256>& light = LinearOfSrgb8();
   const double x = std::clamp(at.x() - 0.5, 0.0, page.width - 1.0);
   const double y = std::clamp(at.y() - 0.5, 0.0, page.height - 1.0);
   const int x0 = std::min(static_cast<int>(x), std::max(0, page.width - 2));

@@ -7,13 +7,14 @@
 #include "register/register.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
+#include "scene/quantile.h"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -62,8 +63,7 @@ TrialBin CountTrials(const std::vector<Trial>& trials, double low_px, double hig
     bin.num_inside_95 += trial.IsInside95();
   }
   if (ends.empty()) return bin;
-  std::sort(ends.begin(), ends.end());
-  bin.median_end_px = ends[ends.size() / 2];
+  bin.median_end_px = UpperMedian(std::move(ends));
   return bin;
 }
 

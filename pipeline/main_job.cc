@@ -6,20 +6,19 @@
 #include "pipeline/register_stages.h"
 #include "report/report.h"
 #include "scene/check_option.h"
+#include "scene/coverage.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/output_folder.h"
 #include "scene/formats/output_stages.h"
 #include "viewer/overlay.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <fstream>
 #include <functional>
 #include <string_view>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -81,13 +80,98 @@ std::string WhyNoStills(const std::vector<BakePhotograph>& photographs, const fs
          " --view FILE.view -o still.png draws one from wherever you like";
 }
 
-// Of a texture that an earlier run has made.
-std::optional<double> ReadCoveredShare(const fs::path& coverage_file) {
-  std::ifstream in(coverage_file);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("covered_share")) return std::nullopt;
-  const auto& share = json["covered_share"];
-  return share.is_number() ? std::optional(share.get<double>()) : std::nullopt;
+// Of one main job: what its stages share.
+struct MainJob {
+  const Scene& scene;
+  const fs::path& out;
+  const MainJobOptions& options;
+  const JobObserver& observer;
+  StageKeys keys;
+  OutputStages stages;
+};
+
+// The job with what earlier runs left: what is the same is kept, the rest is gone.
+MainJob BeginMainJob(const Scene& scene,
+                     const fs::path& out,
+                     const MainJobOptions& options,
+                     const JobObserver& observer) {
+  const MainJobTexts texts = options.texts.value_or(MainJobTexts());
+  const StageInputs inputs = ReadRegistrationInputs(scene, texts.registering);
+  const StageInputs texture_inputs = ReadTextureInputs(scene, texts.texture);
+  const StageInputs tiles_inputs = ReadStageOptions(texts.tiles);
+  const StageInputs stills_inputs = ReadStageOptions(texts.stills);
+  StageKeys keys;
+  keys.registration = RegistrationKey(options.seed, inputs);
+  keys.texture = StageKey(kTextureStage, keys.registration, texture_inputs);
+  keys.tiles = StageKey(kTilesStage, keys.texture, tiles_inputs);
+  keys.stills = StageKey(kStillsStage, keys.texture, stills_inputs);
+  OutputStages stages(
+      out,
+      MakeManifest("run", options.seed, {inputs, texture_inputs, tiles_inputs, stills_inputs}));
+  KeepSame(keys, options.texts.has_value(), stages);
+  TellChanged(stages, {kRegisterStage, kOverlayStage, kTextureStage, kStillsStage}, observer);
+  if (options.tiles.form != TilesToWrite::Form::kNone) {
+    TellChanged(stages, {kTilesStage}, observer);
+  }
+  return {scene, out, options, observer, std::move(keys), std::move(stages)};
+}
+
+// What of the model has a texture afterwards.
+std::optional<double> EnsureTexture(const std::vector<BakePhotograph>& photographs, MainJob& job) {
+  if (job.stages.IsComplete(kTextureStage, job.keys.texture)) {
+    job.observer.Keep(kTextureStage);
+    const std::optional<Coverage> coverage = ReadCoverage(job.out / "coverage.json");
+    return coverage ? std::optional(coverage->CoveredShare()) : std::nullopt;
+  }
+  const BakeResult bake = BakeAndWrite(job.scene,
+                                       photographs,
+                                       job.options.baking,
+                                       job.options.page_format,
+                                       job.out,
+                                       job.keys.texture,
+                                       job.stages,
+                                       job.observer);
+  const double covered_share = bake.coverage.CoveredShare();
+  if (job.observer.textured) job.observer.textured(covered_share);
+  return covered_share;
+}
+
+// Texture, tiles and pictures.
+void MakeTextured(const std::vector<BakePhotograph>& photographs,
+                  MainJob& job,
+                  Attempts& attempts,
+                  MainJobResult& result) {
+  attempts.Try("texture", [&] { result.covered_share = EnsureTexture(photographs, job); });
+  attempts.Try("tiles", [&] {
+    EnsureTiles(job.scene,
+                photographs,
+                job.options.tiles,
+                job.out,
+                job.keys.tiles,
+                job.stages,
+                job.observer);
+  });
+  attempts.Try("pictures from new viewpoints", [&] {
+    if (!job.stages.IsComplete(kTextureStage, job.keys.texture)) return;
+    result.stills = EnsureStills(result.registered.registrations,
+                                 job.options.num_stills,
+                                 job.out,
+                                 job.keys.stills,
+                                 job.stages,
+                                 job.observer);
+    if (result.stills.width == 0 && job.options.num_stills > 0) {
+      result.remarks.push_back(WhyNoStills(photographs, job.out));
+    }
+  });
+}
+
+void WriteReport(MainJob& job) {
+  job.stages.Begin(kReportStage, job.keys.registration, {"report.html"});
+  job.observer.Begin(kReportStage);
+  ReportOptions report;
+  report.draw_edges = MakeEdgeDrawing(job.scene.model);
+  WriteFileAtomically(job.out / "report.html", MakeReport(job.out, &job.scene, report));
+  job.stages.Finish(kReportStage);
 }
 
 }  // namespace
@@ -113,37 +197,19 @@ MainJobResult RunMainJob(const Scene& scene,
   options.Check();
   CheckSelection(options.selection, scene);
   const FolderLock lock = PrepareOutputFolder(out);
-  const MainJobTexts texts = options.texts.value_or(MainJobTexts());
-  const StageInputs inputs = ReadRegistrationInputs(scene, texts.registering);
-  const StageInputs texture_inputs = ReadTextureInputs(scene, texts.texture);
-  const StageInputs tiles_inputs = ReadStageOptions(texts.tiles);
-  const StageInputs stills_inputs = ReadStageOptions(texts.stills);
-  StageKeys keys;
-  keys.registration = RegistrationKey(options.seed, inputs);
-  keys.texture = StageKey(kTextureStage, keys.registration, texture_inputs);
-  keys.tiles = StageKey(kTilesStage, keys.texture, tiles_inputs);
-  keys.stills = StageKey(kStillsStage, keys.texture, stills_inputs);
-  OutputStages stages(
-      out,
-      MakeManifest("run", options.seed, {inputs, texture_inputs, tiles_inputs, stills_inputs}));
-  KeepSame(keys, options.texts.has_value(), stages);
+  MainJob job = BeginMainJob(scene, out, options, observer);
 
-  TellChanged(stages, {kRegisterStage, kOverlayStage, kTextureStage, kStillsStage}, observer);
-  if (options.tiles.form != TilesToWrite::Form::kNone) {
-    TellChanged(stages, {kTilesStage}, observer);
-  }
   MainJobResult result;
   result.registered = EnsureRegistered(
-      scene, options.lens, options.registering, out, keys.registration, stages, observer);
+      scene, options.lens, options.registering, out, job.keys.registration, job.stages, observer);
   if (observer.registered) observer.registered(result.registered);
-  const std::vector<Registration>& registrations = result.registered.registrations;
   Attempts attempts(observer);
   attempts.Try("overlays", [&] {
-    EnsureOverlays(scene, result.registered, out, keys.registration, stages, observer);
+    EnsureOverlays(scene, result.registered, out, job.keys.registration, job.stages, observer);
   });
 
   std::vector<BakePhotograph> photographs =
-      SelectPhotographs(scene, registrations, options.selection.accepted_only);
+      SelectPhotographs(scene, result.registered.registrations, options.selection.accepted_only);
   bool is_narrowed = false;
   attempts.Try("texture", [&] {
     result.mask_faults = NarrowPhotographs(options.selection, scene, photographs);
@@ -154,45 +220,9 @@ MainJobResult RunMainJob(const Scene& scene,
         "no photograph is left to texture with: none of those that are not excluded could be "
         "registered");
   } else if (is_narrowed) {
-    attempts.Try("texture", [&] {
-      if (stages.IsComplete(kTextureStage, keys.texture)) {
-        observer.Keep(kTextureStage);
-        result.covered_share = ReadCoveredShare(out / "coverage.json");
-        return;
-      }
-      const BakeResult bake = BakeAndWrite(scene,
-                                           photographs,
-                                           options.baking,
-                                           options.page_format,
-                                           out,
-                                           keys.texture,
-                                           stages,
-                                           observer);
-      result.covered_share = bake.coverage.CoveredShare();
-      if (observer.textured) observer.textured(*result.covered_share);
-    });
-    attempts.Try("tiles", [&] {
-      EnsureTiles(scene, photographs, options.tiles, out, keys.tiles, stages, observer);
-    });
-    attempts.Try("pictures from new viewpoints", [&] {
-      if (!stages.IsComplete(kTextureStage, keys.texture)) return;
-      result.stills =
-          EnsureStills(registrations, options.num_stills, out, keys.stills, stages, observer);
-      if (result.stills.width == 0 && options.num_stills > 0) {
-        result.remarks.push_back(WhyNoStills(photographs, out));
-      }
-    });
+    MakeTextured(photographs, job, attempts, result);
   }
-  if (options.report) {
-    attempts.Try("report", [&] {
-      stages.Begin(kReportStage, keys.registration, {"report.html"});
-      observer.Begin(kReportStage);
-      ReportOptions report;
-      report.draw_edges = MakeEdgeDrawing(scene.model);
-      WriteFileAtomically(out / "report.html", MakeReport(out, &scene, report));
-      stages.Finish(kReportStage);
-    });
-  }
+  if (options.report) attempts.Try("report", [&] { WriteReport(job); });
   result.failures = attempts.failures();
   return result;
 }

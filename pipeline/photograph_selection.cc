@@ -4,11 +4,9 @@
 
 #include "invrender/selection.h"
 #include "scene/error.h"
-#include "scene/formats/image_io.h"
+#include "scene/formats/ignore_mask.h"
 #include "scene/formats/photograph_name.h"
-#include "scene/text.h"
-
-#include <algorithm>
+#include "scene/formats/select_photographs.h"
 
 namespace groundglass {
 namespace {
@@ -21,16 +19,8 @@ std::vector<std::string> DropThoseWithFaultyMasks(const std::filesystem::path& f
     const auto& file = photograph.mask_file;
     if (!file || *file != folder / file->filename()) return false;
     try {
-      const Image16 mask = ReadLabels(*file);
-      if (mask.width == photograph.camera.width_px && mask.height == photograph.camera.height_px) {
-        return false;
-      }
-      faults.push_back(Error(*file,
-                             "mask has " + std::to_string(mask.width) + " x " +
-                                 std::to_string(mask.height) + " pixels, its photograph " +
-                                 std::to_string(photograph.camera.width_px) + " x " +
-                                 std::to_string(photograph.camera.height_px))
-                           .what());
+      ReadIgnoreMask(*file, {photograph.camera.width_px, photograph.camera.height_px});
+      return false;
     } catch (const Error& error) {
       faults.push_back(error.what());
     }
@@ -38,20 +28,6 @@ std::vector<std::string> DropThoseWithFaultyMasks(const std::filesystem::path& f
     return true;
   });
   return faults;
-}
-
-// Those that cannot be used or were left out included: a table that names them is right.
-std::vector<PhotographName> AllNames(const Scene& scene) {
-  std::vector<PhotographName> names = NamesOf(scene.photographs);
-  for (const UnreadablePhotograph& unreadable : scene.unreadable) {
-    const Photograph& photograph = unreadable.photograph;
-    names.push_back({photograph.name, photograph.image_file.filename().string()});
-  }
-  for (const std::string& name : scene.left_out) names.push_back({name, ""});
-  std::sort(names.begin(), names.end(), [](const PhotographName& a, const PhotographName& b) {
-    return NaturalLess(a.name, b.name);
-  });
-  return names;
 }
 
 }  // namespace
@@ -63,10 +39,7 @@ std::vector<std::string> NarrowPhotographs(const PhotographSelection& selection,
   // That the scene has them all is known; some may be missing here for other reasons.
   std::vector<std::string> exclude = selection.exclude;
   std::erase_if(exclude, [&](const std::string& name) {
-    return std::none_of(
-        photographs.begin(), photographs.end(), [&](const BakePhotograph& photograph) {
-          return photograph.name == name || photograph.image_file.filename() == name;
-        });
+    return !FindPhotograph(name, NamesOf(photographs));
   });
   ExcludePhotographs(exclude, photographs);
   if (photographs.empty()) return faults;
@@ -76,7 +49,8 @@ std::vector<std::string> NarrowPhotographs(const PhotographSelection& selection,
   }
   const std::filesystem::path pairs = scene.folder / "pairs.csv";
   if (std::filesystem::exists(pairs)) {
-    RestrictToPairs(pairs, scene.model, photographs, AllNames(scene));
+    // Those that cannot be used or were left out included: a table that names them is right.
+    RestrictToPairs(pairs, scene.model, photographs, AllPhotographNames(scene));
   }
   if (!selection.only_faces.empty()) {
     RestrictToFaces(scene.model, FindFaces(scene.model, selection.only_faces), photographs);

@@ -7,11 +7,11 @@
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/registration_io.h"
+#include "scene/progress.h"
 #include "viewer/overlay.h"
 
 #include <tbb/parallel_for.h>
 
-#include <mutex>
 #include <optional>
 
 namespace groundglass {
@@ -104,8 +104,7 @@ void EnsureOverlays(const Scene& scene,
   const Progress progress = observer.Begin(kOverlayStage);
   const std::vector<ModelEdge> edges = FindModelEdges(scene.model);
   const Visibility visibility(scene.model);
-  std::mutex mutex;
-  int done = 0;
+  ProgressCounter steps(progress, static_cast<int>(wanted.size()));
   tbb::parallel_for(size_t{0}, wanted.size(), [&](size_t w) {
     const int i = wanted[w];
     const Registration& registration = registered.registrations[i];
@@ -119,9 +118,7 @@ void EnsureOverlays(const Scene& scene,
                            visibility,
                            measured,
                            is_corrected ? &corrected : nullptr));
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (progress) progress(done, static_cast<int>(wanted.size()), registration.name);
+    steps.Tell(registration.name);
   });
   stages.Finish(kOverlayStage);
 }

@@ -5,7 +5,9 @@
 #include "invrender/bake_output.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/model_io.h"
 #include "scene/formats/textured_model_io.h"
+#include "scene/progress.h"
 #include "viewer/camera_path.h"
 #include "viewer/renderer.h"
 
@@ -123,9 +125,10 @@ ImageSize EnsureStills(const std::vector<Registration>& registrations,
   options.background = Background::kSky;
   options.supersampling = 2;
   const Progress progress = observer.Begin(kStillsStage);
+  ProgressCounter steps(progress, num_stills);
   for (int still = 0; still < num_stills; ++still) {
     WriteSrgb8(out / files[still], renderer.Render(flight[2 * still + 1], options));
-    if (progress) progress(still + 1, num_stills, files[still]);
+    steps.Tell(files[still]);
   }
   stages.Finish(kStillsStage);
   return size;

@@ -10,8 +10,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <mutex>
-
 namespace groundglass {
 namespace {
 
@@ -89,19 +87,12 @@ RegisteredScene RegisterScene(const Scene& scene,
   const EdgeModel edge_model(scene.model);
   const int total = static_cast<int>(scene.photographs.size());
   std::vector<PhotographAlignment> alignments(scene.photographs.size());
-  std::mutex mutex;
-  int done = 0;
+  ProgressCounter steps(progress, total);
   tbb::parallel_for(0, total, [&](int index) {
     const Photograph& photograph = scene.photographs[index];
     alignments[index] = AlignOrSayWhyNot(scene, photograph, lens, edge_model, options);
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (progress) {
-      progress(
-          done,
-          total,
-          photograph.name + " " + std::string(VerdictName(alignments[index].registration.verdict)));
-    }
+    steps.Tell(photograph.name + " " +
+               std::string(VerdictName(alignments[index].registration.verdict)));
   });
   RegisteredScene registered;
   if (!options.independent) {

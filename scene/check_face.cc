@@ -19,98 +19,116 @@ constexpr double kZeroAreaShare = 1e-9;
 // Points nearer to a line than this share of the size lie on it.
 constexpr double kTouchShare = 1e-9;
 
+std::string PointNumber(int point) { return std::to_string(point + 1); }
+
+const Eigen::Vector3d& CornerInWorld(const PolygonModel& model, const Face& face, size_t corner) {
+  return model.points_in_world[static_cast<size_t>(face.points[corner])];
+}
+
+// Too few points, or points that there are not. Faults are empty where there is none.
+std::string FindFaultOfPoints(const PolygonModel& model, const Face& face) {
+  const int num_points = static_cast<int>(model.points_in_world.size());
+  if (face.points.size() < 3) {
+    return "has " + std::to_string(face.points.size()) + " points; a face needs at least 3";
+  }
+  for (const int point : face.points) {
+    if (point < 0 || point >= num_points) {
+      return "uses point " + PointNumber(point) + ", which is outside 1 to " +
+             std::to_string(num_points);
+    }
+  }
+  return "";
+}
+
+// Neighbouring corners at one place.
+std::string FindRepeatedCorner(const PolygonModel& model, const Face& face, double tolerance) {
+  for (size_t i = 0; i < face.points.size(); ++i) {
+    const size_t after = (i + 1) % face.points.size();
+    const double length =
+        (CornerInWorld(model, face, i) - CornerInWorld(model, face, after)).norm();
+    if (length > tolerance) continue;
+    const int here = face.points[i];
+    const int next = face.points[after];
+    if (here == next) return "has point " + PointNumber(here) + " more than once";
+    return "has a repeated point: " + PointNumber(here) + " and " + PointNumber(next) +
+           " are at the same place";
+  }
+  return "";
+}
+
+// The face's corners in its best plane, counterclockwise as it is seen, and how far they lie from
+// that plane at most.
+struct FlatOutline {
+  std::vector<Eigen::Vector2d> corners;
+  double deviation = 0;
+};
+FlatOutline Flatten(const PolygonModel& model, int face, const Eigen::Vector3d& origin) {
+  const FacePlane plane = ComputeFacePlane(model, face);
+  const Eigen::Vector3d u = plane.normal_in_world.unitOrthogonal();
+  const Eigen::Vector3d v = plane.normal_in_world.cross(u);
+  FlatOutline flat;
+  for (const int point : model.faces[static_cast<size_t>(face)].points) {
+    const Eigen::Vector3d& position = model.points_in_world[static_cast<size_t>(point)];
+    flat.corners.emplace_back(u.dot(position - origin), v.dot(position - origin));
+    flat.deviation =
+        std::max(flat.deviation, std::abs(plane.normal_in_world.dot(position) - plane.offset));
+  }
+  return flat;
+}
+
+// An outline without area, or one that meets itself.
+std::string FindFaultOfOutline(const Face& face,
+                               const std::vector<Eigen::Vector2d>& outline,
+                               double tolerance,
+                               bool has_area) {
+  std::optional<std::array<OutlineSide, 2>> meeting;
+  if (has_area) {
+    const OutlineLoops loops = PartOutline(outline, tolerance, true);
+    meeting = loops.meeting;
+    if (loops.is_turned) return "has a hole that runs the same way round as its outline";
+  }
+  if (has_area && !meeting) return "";
+  // Most likely a slip of the pen in a file written by hand.
+  std::vector<int> sorted = face.points;
+  std::sort(sorted.begin(), sorted.end());
+  const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
+  if (repeated != sorted.end()) return "has point " + PointNumber(*repeated) + " more than once";
+  if (!meeting) return "has no area: its points lie on a line, or its parts cancel out";
+  const auto name = [&](const OutlineSide& side) {
+    return PointNumber(face.points[static_cast<size_t>(side.start)]) + "-" +
+           PointNumber(face.points[static_cast<size_t>(side.end)]);
+  };
+  return "crosses or touches itself: its sides " + name((*meeting)[0]) + " and " +
+         name((*meeting)[1]) + " meet";
+}
+
 }  // namespace
 
 FaceCheck CheckFace(const PolygonModel& model, int face_index) {
   FaceCheck check;
   const Face& face = model.faces[static_cast<size_t>(face_index)];
-  const int num_points = static_cast<int>(model.points_in_world.size());
-  const size_t n = face.points.size();
-  const auto number = [](int point) { return std::to_string(point + 1); };
-  if (n < 3) {
-    check.fault = "has " + std::to_string(n) + " points; a face needs at least 3";
-    return check;
-  }
-  for (const int point : face.points) {
-    if (point < 0 || point >= num_points) {
-      check.fault =
-          "uses point " + number(point) + ", which is outside 1 to " + std::to_string(num_points);
-      return check;
-    }
-  }
-  Eigen::Vector3d low = model.points_in_world[static_cast<size_t>(face.points[0])];
+  check.fault = FindFaultOfPoints(model, face);
+  if (!check.fault.empty()) return check;
+  Eigen::Vector3d low = CornerInWorld(model, face, 0);
   Eigen::Vector3d high = low;
-  for (const int point : face.points) {
-    low = low.cwiseMin(model.points_in_world[static_cast<size_t>(point)]);
-    high = high.cwiseMax(model.points_in_world[static_cast<size_t>(point)]);
+  for (size_t i = 1; i < face.points.size(); ++i) {
+    low = low.cwiseMin(CornerInWorld(model, face, i));
+    high = high.cwiseMax(CornerInWorld(model, face, i));
   }
   const double size = (high - low).norm();
   const double tolerance = kTouchShare * size;
-  for (size_t i = 0; i < n; ++i) {
-    const int here = face.points[i];
-    const int next = face.points[(i + 1) % n];
-    if ((model.points_in_world[static_cast<size_t>(here)] -
-         model.points_in_world[static_cast<size_t>(next)])
-            .norm() <= tolerance) {
-      if (here == next) {
-        check.fault = "has point " + number(here) + " more than once";
-        return check;
-      }
-      check.fault = "has a repeated point: " + number(here) + " and " + number(next) +
-                    " are at the same place";
-      return check;
-    }
-  }
+  check.fault = FindRepeatedCorner(model, face, tolerance);
+  if (!check.fault.empty()) return check;
 
-  const FacePlane plane = ComputeFacePlane(model, face_index);
-  const Eigen::Vector3d u = plane.normal_in_world.unitOrthogonal();
-  const Eigen::Vector3d v = plane.normal_in_world.cross(u);
-  std::vector<Eigen::Vector2d> outline;
-  double deviation = 0;
-  for (const int point : face.points) {
-    const Eigen::Vector3d& position = model.points_in_world[static_cast<size_t>(point)];
-    outline.emplace_back(u.dot(position - low), v.dot(position - low));
-    deviation = std::max(deviation, std::abs(plane.normal_in_world.dot(position) - plane.offset));
-  }
+  const FlatOutline flat = Flatten(model, face_index, low);
   const bool has_area = ComputeFaceArea(model, face_index) > kZeroAreaShare * size * size;
-  std::optional<std::array<OutlineSide, 2>> meeting;
-  if (has_area) {
-    const OutlineLoops loops = PartOutline(outline, tolerance, true);
-    meeting = loops.meeting;
-    if (loops.is_turned) {
-      check.fault = "has a hole that runs the same way round as its outline";
-      return check;
-    }
-  }
-  if (meeting || !has_area) {
-    // Most likely a slip of the pen in a file written by hand.
-    std::vector<int> sorted = face.points;
-    std::sort(sorted.begin(), sorted.end());
-    const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
-    if (repeated != sorted.end()) {
-      check.fault = "has point " + number(*repeated) + " more than once";
-      return check;
-    }
-  }
-  if (meeting) {
-    const auto name = [&](const OutlineSide& side) {
-      return number(face.points[static_cast<size_t>(side.start)]) + "-" +
-             number(face.points[static_cast<size_t>(side.end)]);
-    };
-    check.fault = "crosses or touches itself: its sides " + name((*meeting)[0]) + " and " +
-                  name((*meeting)[1]) + " meet";
-    return check;
-  }
-  if (!has_area) {
-    check.fault = "has no area: its points lie on a line, or its parts cancel out";
-    return check;
-  }
-  if (deviation > kPlanarShare * size) {
+  check.fault = FindFaultOfOutline(face, flat.corners, tolerance, has_area);
+  if (check.fault.empty() && flat.deviation > kPlanarShare * size) {
     char text[128];
     std::snprintf(text,
                   sizeof(text),
                   "is %.2g %% of its size out of plane; its best plane is used",
-                  100 * deviation / size);
+                  100 * flat.deviation / size);
     check.warning = text;
   }
   return check;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,5 +51,7 @@ struct Coverage {
 
 // coverage.json (docs/coverage-json.md).
 std::string FormatCoverage(const Coverage& coverage);
+// Gives it back, its faces by number only. Nothing if there is no such file, or somebody else's.
+std::optional<Coverage> ReadCoverage(const std::filesystem::path& file);
 
 }  // namespace groundglass

@@ -22,11 +22,6 @@ std::vector<uint16_t> LabelOfNumber(const PolygonModel& model) {
 
 }  // namespace
 
-int FaceNumber(const PolygonModel& model, int face) {
-  const int number = model.faces[face].number;
-  return number > 0 ? number : face + 1;
-}
-
 std::optional<int> FindFaceByNumber(const PolygonModel& model, long long number) {
   for (int face = 0; face < static_cast<int>(model.faces.size()); ++face) {
     if (FaceNumber(model, face) == number) return face;

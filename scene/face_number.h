@@ -15,9 +15,9 @@ namespace groundglass {
 
 // People, tables and pictures know a face by its number in the model's file, from 1, even where
 // faces before it cannot be used and are left out. In memory a face is its place among the model's
-// faces, from 0, and a label picture holds place + 1; these lead from one to the other.
+// faces, from 0, and a label picture holds place + 1; these, and FaceNumber
+// (scene/polygon_model.h), lead from one to the other.
 
-int FaceNumber(const PolygonModel& model, int face);
 // The face with this number; nothing if it is left out or there never was one.
 std::optional<int> FindFaceByNumber(const PolygonModel& model, long long number);
 int HighestFaceNumber(const PolygonModel& model);

@@ -16,9 +16,6 @@ namespace groundglass {
 // hole, around it, and back over the same bridge. A side that is walked both ways bounds nothing.
 // Corners are places in Face::points.
 
-// Twice the face's vector area (Newell): its direction is the normal, its length twice the area.
-Eigen::Vector3d DoubledVectorArea(const PolygonModel& model, int face);
-
 // A side of an outline, from one corner to the next.
 struct OutlineSide {
   int start = 0;

@@ -45,17 +45,6 @@ std::vector<OutlineSide> WithoutBridges(const std::vector<OutlineSide>& sides,
   return left;
 }
 
-Eigen::Vector3d DoubledVectorArea(const PolygonModel& model, int face) {
-  const std::vector<int>& points = model.faces[face].points;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d& origin = model.points_in_world[points[0]];
-  for (size_t i = 1; i + 1 < points.size(); ++i) {
-    sum += (model.points_in_world[points[i]] - origin)
-               .cross(model.points_in_world[points[i + 1]] - origin);
-  }
-  return sum;
-}
-
 std::vector<OutlineSide> FindBorders(const PolygonModel& model, int face) {
   std::vector<Eigen::Vector3d> corners;
   for (const int point : model.faces[face].points) corners.push_back(model.points_in_world[point]);

@@ -2,12 +2,26 @@
 // Part of Groundglass.
 #include "scene/polygon_model.h"
 
-#include "scene/face_number.h"
-#include "scene/face_outline.h"
-
 #include <cmath>
 
 namespace groundglass {
+
+int FaceNumber(const PolygonModel& model, int face) {
+  const int number = model.faces[face].number;
+  return number > 0 ? number : face + 1;
+}
+
+Eigen::Vector3d DoubledVectorArea(const PolygonModel& model, int face) {
+  const std::vector<int>& points = model.faces[face].points;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d& origin = model.points_in_world[points[0]];
+  for (size_t i = 1; i + 1 < points.size(); ++i) {
+    sum += (model.points_in_world[points[i]] - origin)
+               .cross(model.points_in_world[points[i + 1]] - origin);
+  }
+  return sum;
+}
+
 FacePlane ComputeFacePlane(const PolygonModel& model, int face) {
   const Face& polygon = model.faces[face];
   FacePlane plane;

@@ -41,6 +41,13 @@ struct PolygonModel {
   std::optional<Georeference> georeference;
 };
 
+// What people call a face: its number in the model's file, or its place among the faces, from 1
+// (scene/face_number.h).
+int FaceNumber(const PolygonModel& model, int face);
+
+// Twice the face's vector area (Newell): its direction is the normal, its length twice the area.
+Eigen::Vector3d DoubledVectorArea(const PolygonModel& model, int face);
+
 // normal . point = offset, the normal (unit length) pointing out of the face's front.
 struct FacePlane {
   Eigen::Vector3d normal_in_world = Eigen::Vector3d::UnitZ();

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <vector>
 
 namespace groundglass {
@@ -42,10 +41,7 @@ std::vector<Share> SharesOf(int from, int to) {
 Image8 ReducedInLight(const Image8& srgb8, int width, int height) {
   assert(width >= 1 && height >= 1 && width <= srgb8.width && height <= srgb8.height);
   if (width == srgb8.width && height == srgb8.height) return srgb8;
-  std::array<float, 256> light_of_code;
-  for (int code = 0; code < 256; ++code) {
-    light_of_code[static_cast<size_t>(code)] = LinearFromSrgb(static_cast<float>(code) / 255.0f);
-  }
+  const std::array<float, 256>& light_of_code = LinearOfSrgb8();
   const std::vector<Share> across = SharesOf(srgb8.width, width);
   const std::vector<Share> down = SharesOf(srgb8.height, height);
   const int channels = srgb8.channels;
@@ -74,7 +70,7 @@ Image8 ReducedInLight(const Image8& srgb8, int width, int height) {
     if (y + 1 < srgb8.height && down[static_cast<size_t>(y + 1)].first == share.first) continue;
     uint8_t* to = reduced.At(0, share.first);
     for (size_t i = 0; i < row_size; ++i) {
-      to[i] = static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(here[i])));
+      to[i] = Srgb8FromLinear(here[i]);
     }
     here.swap(next);
     std::fill(next.begin(), next.end(), 0.f);

@@ -52,4 +52,19 @@ float SrgbFromLinear(float linear) {
   return Interpolate(table, linear);
 }
 
+const std::array<float, 256>& LinearOfSrgb8() {
+  static const std::array<float, 256> kLinear = [] {
+    std::array<float, 256> linear;
+    for (size_t code = 0; code < linear.size(); ++code) {
+      linear[code] = LinearFromSrgb(static_cast<float>(code) / 255.0f);
+    }
+    return linear;
+  }();
+  return kLinear;
+}
+
+uint8_t Srgb8FromLinear(float linear) {
+  return static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(linear)));
+}
+
 }  // namespace groundglass

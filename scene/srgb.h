@@ -2,10 +2,17 @@
 // Part of Groundglass.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 namespace groundglass {
 
 // The sRGB transfer function (IEC 61966-2-1), on [0, 1]; what lies outside is clamped.
 float LinearFromSrgb(float encoded);
 float SrgbFromLinear(float linear);
+
+// The same for whole codes: the light of each 8-bit one, and the code that is nearest to a light.
+const std::array<float, 256>& LinearOfSrgb8();
+uint8_t Srgb8FromLinear(float linear);
 
 }  // namespace groundglass

@@ -16,7 +16,8 @@ bool IsInsideTriangle(const Eigen::Vector2d& p,
 }
 
 // Ear clipping. Each corner that is no ear remembers one that stands in its way and is looked at
-// again only when that one, or a neighbour, is gone.
+// again only when that one, or a neighbour, is gone. Ours, since Debian 12 has no free-standing
+// library for it in C++ (CGAL's triangulations are under the GPL), and bridges to holes must stay.
 class EarClipper {
  public:
   EarClipper(const std::vector<Eigen::Vector2d>& flat, const std::vector<int>& corners)

@@ -127,8 +127,7 @@ void TileRenderer::Draw(std::span<const Tile> tiles) {
 }
 
 Image8 TileRenderer::Picture() const {
-  std::array<float, 256> radiance;
-  for (int i = 0; i < 256; ++i) radiance[i] = LinearFromSrgb(static_cast<float>(i) / 255.0f);
+  const std::array<float, 256>& radiance = LinearOfSrgb8();
   Image8 picture(codes_.width / supersampling_, codes_.height / supersampling_, 3);
   const int num_samples = supersampling_ * supersampling_;
   tbb::parallel_for(0, picture.height, [&](int y) {
@@ -140,7 +139,7 @@ Image8 TileRenderer::Picture() const {
                                     supersampling_ * y + i / supersampling_)[c]];
         }
         const float mean = sum / static_cast<float>(num_samples);
-        picture.At(x, y)[c] = static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(mean)));
+        picture.At(x, y)[c] = Srgb8FromLinear(mean);
       }
     }
   });

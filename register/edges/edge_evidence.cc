@@ -3,6 +3,7 @@
 #include "register/edges/edge_evidence.h"
 
 #include "scene/frames.h"
+#include "scene/quantile.h"
 #include "scene/srgb.h"
 
 #include <opencv2/imgproc.hpp>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -47,10 +49,8 @@ void ScaleByNoise(ImageF& gradient) {
   }
   // The median magnitude: most of a photograph is surface, not edge. Flat skies and clipped whites
   // would make it too small, so it never counts as less than 0.4 grey levels for each pixel.
-  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
-  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
   constexpr float kLeastNoise = 0.4f;
-  const float noise = std::max(kLeastNoise, *middle);
+  const float noise = std::max(kLeastNoise, UpperMedian(std::move(magnitudes)));
   for (float& value : gradient.values) value /= noise;
 }
 

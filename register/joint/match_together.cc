@@ -4,6 +4,7 @@
 
 #include "register/edges/weighted_median.h"
 #include "register/joint/image_edge_error.h"
+#include "scene/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -99,11 +100,11 @@ void EstimateSharedOffset(const JointOptions& options, JointState& state) {
                              state.edge_model.sigma);
   }
   if (offsets_sigmas.empty()) return;
-  const auto quartile =
-      offsets_sigmas.begin() + static_cast<std::ptrdiff_t>(offsets_sigmas.size() * 3 / 4);
-  std::nth_element(offsets_sigmas.begin(), quartile, offsets_sigmas.end());
+  const size_t upper_quartile = offsets_sigmas.size() * 3 / 4;
   state.own_bias.shared_offset_sigmas =
-      std::clamp(*quartile, options.least_shared_offset_sigmas, options.most_shared_offset_sigmas);
+      std::clamp(ValueOfRank(std::move(offsets_sigmas), upper_quartile),
+                 options.least_shared_offset_sigmas,
+                 options.most_shared_offset_sigmas);
 }
 
 }  // namespace groundglass

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 // What a model tells about itself: too large, too small, saved through single precision.
 #include "scene/advice/advice_parts.h"
+#include "scene/quantile.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -36,8 +38,7 @@ std::optional<double> MedianEyeHeight(const AdviceContext& context) {
     heights.push_back(standpoint.position_in_site.z() - context.bounds.min.z());
   }
   if (heights.empty()) return std::nullopt;
-  std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
-  return heights[heights.size() / 2];
+  return UpperMedian(std::move(heights));
 }
 
 // The unit in which the model has a building's size and the cameras are held by people.

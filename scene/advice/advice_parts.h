@@ -2,8 +2,9 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/advice/advice.h"
+#include "scene/advice/advice_line.h"
 #include "scene/advice/standpoint.h"
+#include "scene/formats/scene.h"
 
 #include <filesystem>
 #include <string>

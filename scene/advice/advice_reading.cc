@@ -7,6 +7,7 @@
 #include "scene/advice/advice_parts.h"
 #include "scene/advice/advice_readings.h"
 #include "scene/frames.h"
+#include "scene/quantile.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -99,8 +100,7 @@ std::optional<Reading> FindBest(const AdviceContext& context,
 void AdviseOnWhatIsUnknown(const AdviceContext& context, size_t num_implausible) {
   std::vector<double> distances;
   for (const Standpoint& standpoint : context.standpoints) distances.push_back(standpoint.distance);
-  std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
-  const double distance = distances[distances.size() / 2];
+  const double distance = UpperMedian(std::move(distances));
   const double diagonal = context.bounds.Diagonal();
   if (distance > 30 * diagonal) {
     context.Add(Advice::Severity::kScene,

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "scene/advice/advice_suitability.h"
 
+#include "scene/quantile.h"
+
 #include <algorithm>
 
 namespace groundglass {
@@ -20,8 +22,7 @@ Suitability Summarise(const std::vector<Standpoint>& standpoints) {
     model_share += standpoint.model_share;
     front_share += standpoint.model_share * standpoint.front_share;
   }
-  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
-  summary.median_lookat_error = errors[errors.size() / 2];
+  summary.median_lookat_error = UpperMedian(std::move(errors));
   summary.front_share = model_share > 0 ? front_share / model_share : 0;
   return summary;
 }

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "scene/advice/edge_fit.h"
 
+#include "scene/quantile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -68,8 +70,7 @@ EdgeFit::EdgeFit(const Image8& grey8) {
   // Half strength at the picture's stronger gradients: a bright sky's rim counts no more than a
   // wall's.
   const size_t upper = sizes.size() * 4 / 5;
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(upper), sizes.end());
-  const float half = std::max(1.0f, sizes[upper]);
+  const float half = std::max(1.0f, ValueOfRank(std::move(sizes), upper));
   for (int direction = 0; direction < kDirections; ++direction) {
     const double angle = std::numbers::pi * direction / kDirections;
     const float c = static_cast<float>(std::cos(angle));

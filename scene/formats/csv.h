@@ -15,8 +15,9 @@ namespace groundglass {
 // itself; decimal points or commas; UTF-8, UTF-16 or Windows-1252; any line ends; empty columns and
 // rows at the ends dropped. From a blank and `%` on, or a line's first `%`, a row is a comment.
 //
-// Ours, since the libraries for CSV (libcsv, rapidcsv) are told the separator and leave encoding,
-// decimal commas and the place of a fault to their caller, which is nearly all of this.
+// Ours, since the libraries for CSV (libcsv, fast-cpp-csv-parser, rapidcsv) are told the separator,
+// and leave encoding, decimal commas and the place of a fault to their caller, which is nearly all
+// of this.
 struct CsvRow {
   int line = 0;                     // where it begins, from 1
   std::vector<std::string> fields;  // without blanks at either end; as many as the header has

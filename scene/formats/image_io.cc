@@ -59,16 +59,12 @@ ImageF ReadOpenRadiance(OpenImage& image) {
   return ColourOf(image, image.Read<float>(OIIO::TypeFloat));
 }
 
-uint8_t CodeFromLinear(float linear) {
-  return static_cast<uint8_t>(SrgbFromLinear(linear) * 255.0f + 0.5f);
-}
-
 Image8 ReadOpenSrgb8(OpenImage& image) {
   if (image.IsLinear()) {
     const ImageF radiance = ReadOpenRadiance(image);
     Image8 srgb8(radiance.width, radiance.height, 3);
     std::transform(
-        radiance.values.begin(), radiance.values.end(), srgb8.values.begin(), CodeFromLinear);
+        radiance.values.begin(), radiance.values.end(), srgb8.values.begin(), Srgb8FromLinear);
     return srgb8;
   }
   return ReadCodes<uint8_t>(image, OIIO::TypeUInt8);
@@ -104,10 +100,7 @@ ImageF ReadRadiance(const std::filesystem::path& file) {
     return ReadOpenRadiance(image);
   }
   if (image.spec().format == OIIO::TypeUInt8) {
-    std::array<float, 256> linear_of_code;
-    for (int code = 0; code < 256; ++code) {
-      linear_of_code[code] = LinearFromSrgb(static_cast<float>(code) / 255.0f);
-    }
+    const std::array<float, 256>& linear_of_code = LinearOfSrgb8();
     const auto srgb8 = ReadCodes<uint8_t>(image, OIIO::TypeUInt8);
     ImageF radiance(srgb8.width, srgb8.height, 3);
     std::transform(

@@ -110,7 +110,7 @@ void WriteSrgb8(const std::filesystem::path& file,
     ImageF radiance(srgb8.width, srgb8.height, srgb8.channels);
     std::transform(
         srgb8.values.begin(), srgb8.values.end(), radiance.values.begin(), [](uint8_t code) {
-          return LinearFromSrgb(static_cast<float>(code) / 255.0f);
+          return LinearOfSrgb8()[code];
         });
     WriteRadiance(file, radiance, options);
     return;

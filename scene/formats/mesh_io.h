@@ -14,6 +14,11 @@ namespace groundglass {
 // A mesh file as it is written, before anything is decided about its axes or its single faces,
 // which have their numbers in the file. Each reader throws Error naming the file, and the line
 // where there is one; any damage gives an Error or a model.
+//
+// OBJ, PLY and STL are read by our own code. Libraries for them (Assimp, tinyobjloader) hold
+// coordinates as floats unless they are built otherwise, which loses centimetres of a surveyed
+// coordinate, and tell neither the line of a face nor the comments in which a model says its unit
+// and sigma.
 struct MeshReading {
   TexturedModel textured;       // faces: empty if the format has no textures
   std::vector<int> face_lines;  // empty if the file has no lines

@@ -5,7 +5,6 @@
 #include "scene/error.h"
 #include "scene/formats/mesh_io.h"
 #include "scene/formats/obj_io.h"
-#include "scene/formats/textured_model_io.h"
 #include "scene/frames.h"
 #include "scene/mend_faces.h"
 #include "scene/text.h"

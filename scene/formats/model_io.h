@@ -4,8 +4,12 @@
 
 #include "scene/formats/osu_io.h"
 #include "scene/polygon_model.h"
+#include "scene/textured_model.h"
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace groundglass {
 
@@ -38,6 +42,18 @@ void ApplyModelOptions(const std::filesystem::path& file,
 // Reads any model format by its extension: .osu, .obj, .ply, .stl, .gltf, .glb. Polygons stay
 // polygons where the format has them. Throws Error.
 ModelReading ReadModel(const std::filesystem::path& file, const ModelOptions& options = {});
+
+// A model with its pages, and what was odd about it.
+struct TexturedModelReading {
+  TexturedModel textured;  // `faces`: one for each of the model's
+  std::vector<std::string> warnings;
+};
+
+// Reads any model as ReadModel does, with its textures if it is .glb, .gltf or .obj. Without
+// `with_pages` pictures are not opened.
+TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
+                                       const ModelOptions& options = {},
+                                       bool with_pages = true);
 
 // OBJ without textures, in `world`, the model's unit; face names as groups.
 std::string FormatObj(const PolygonModel& model);

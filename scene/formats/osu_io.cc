@@ -149,120 +149,165 @@ struct OsuReading {
   std::vector<std::string> faults;  // of single faces
 };
 
-// Throws what keeps the rest from being read; collects what is wrong with single faces.
-OsuReading ReadAll(const std::string& text, const std::filesystem::path& name) {
-  OsuReading result;
-  PolygonModel& model = result.reading.model;
-  const std::vector<TextLine> lines = SplitLines(text);
-  ReadModelComments(name, lines, model);
+// Reads a model step by step. Throws what keeps the rest from being read; collects what is wrong
+// with single faces.
+class OsuReader {
+ public:
+  OsuReader(const std::string& text, const std::filesystem::path& name)
+      : name_(name), lines_(SplitLines(text)), words_(name, lines_) {}
 
-  WordReader words(name, lines);
-  const long long num_points = words.ReadInteger("the number of points");
-  const long long num_faces = words.ReadInteger("the number of faces");
-  if (num_points < 3 || num_faces < 1) {
-    throw Error(name, words.line(), "a model needs at least 3 points and 1 face");
-  }
-  // Three words a point and four a face at least; also keeps a damaged count from asking for all
-  // of the machine's memory.
-  const long long words_left = static_cast<long long>(words.NumLeft());
-  if (num_points > words_left / 3 || num_faces > (words_left - 3 * num_points) / 2) {
-    throw Error(name,
-                words.line(),
-                "the file is too short for " + std::to_string(num_points) + " points and " +
-                    std::to_string(num_faces) + " faces");
-  }
-  for (long long i = 0; i < num_points; ++i) {
-    const std::string point = "point " + std::to_string(i + 1);
-    const double x = words.ReadNumber(point + ", x");
-    const double y = words.ReadNumber(point + ", y");
-    const double z = words.ReadNumber(point + ", z");
-    model.points_in_world.push_back(WorldFromSite({x, y, z}));
+  OsuReading Read() {
+    ReadModelComments(name_, lines_, model_);
+    ReadCounts();
+    ReadPoints();
+    ReadFaces();
+    RequireEnd();
+    TakeNamesAboveFaces();
+    TakeNamesBesideFaces();
+    LeaveOutFaultyFaces();
+    return std::move(result_);
   }
 
-  // Faces are called by their numbers before they are read, too.
-  PolygonModel numbering;
-  numbering.faces.resize(static_cast<size_t>(num_faces));
-  for (const TextLine& line : lines) {
-    if (CommentField(line, "face numbers:")) {
-      ApplyFaceNumbers(line.comment.substr(line.comment.find(':') + 1), numbering);
+ private:
+  void ReadCounts() {
+    num_points_ = words_.ReadInteger("the number of points");
+    num_faces_ = words_.ReadInteger("the number of faces");
+    if (num_points_ < 3 || num_faces_ < 1) {
+      throw Error(name_, words_.line(), "a model needs at least 3 points and 1 face");
+    }
+    // Three words a point and four a face at least; also keeps a damaged count from asking for all
+    // of the machine's memory.
+    const long long words_left = static_cast<long long>(words_.NumLeft());
+    if (num_points_ > words_left / 3 || num_faces_ > (words_left - 3 * num_points_) / 2) {
+      throw Error(name_,
+                  words_.line(),
+                  "the file is too short for " + std::to_string(num_points_) + " points and " +
+                      std::to_string(num_faces_) + " faces");
     }
   }
-  std::vector<int> first_lines;
-  std::vector<int> last_lines;
-  std::map<int, int> faces_on_line;
-  std::vector<char> is_told(static_cast<size_t>(num_faces), 0);  // its fault is known already
-  for (long long i = 0; i < num_faces; ++i) {
-    const int number = FaceNumber(numbering, static_cast<int>(i));
+
+  void ReadPoints() {
+    for (long long i = 0; i < num_points_; ++i) {
+      const std::string point = "point " + std::to_string(i + 1);
+      const double x = words_.ReadNumber(point + ", x");
+      const double y = words_.ReadNumber(point + ", y");
+      const double z = words_.ReadNumber(point + ", z");
+      model_.points_in_world.push_back(WorldFromSite({x, y, z}));
+    }
+  }
+
+  // What the faces are called, which a comment may say; known before they are read, for messages.
+  PolygonModel ReadFaceNumbers() const {
+    PolygonModel numbering;
+    numbering.faces.resize(static_cast<size_t>(num_faces_));
+    for (const TextLine& line : lines_) {
+      if (CommentField(line, "face numbers:")) {
+        ApplyFaceNumbers(line.comment.substr(line.comment.find(':') + 1), numbering);
+      }
+    }
+    return numbering;
+  }
+
+  void ReadFaces() {
+    const PolygonModel numbering = ReadFaceNumbers();
+    for (long long i = 0; i < num_faces_; ++i) {
+      ReadFace(FaceNumber(numbering, static_cast<int>(i)));
+      for (int line = first_lines_.back(); line <= last_lines_.back(); ++line) {
+        ++faces_on_line_[line];
+      }
+    }
+  }
+
+  void ReadFace(int number) {
     const std::string face_name = "face " + std::to_string(number);
-    const long long corners = words.ReadInteger(face_name + ", its number of points");
-    first_lines.push_back(words.line());
-    if (corners < 1 || corners > static_cast<long long>(words.NumLeft())) {
+    const long long corners = words_.ReadInteger(face_name + ", its number of points");
+    first_lines_.push_back(words_.line());
+    if (corners < 1 || corners > static_cast<long long>(words_.NumLeft())) {
       throw Error(
-          name, words.line(), face_name + " cannot have " + std::to_string(corners) + " points");
+          name_, words_.line(), face_name + " cannot have " + std::to_string(corners) + " points");
     }
-    Face& face = model.faces.emplace_back();
+    Face& face = model_.faces.emplace_back();
     face.number = number;
     bool is_in_range = true;
     for (long long k = 0; k < corners; ++k) {
-      const long long point = words.ReadInteger(face_name + ", point number");
-      if (point < 1 || point > num_points) {
-        if (is_in_range) {
-          result.faults.push_back(Error(name,
-                                        words.line(),
-                                        face_name + ": point number " + std::to_string(point) +
-                                            " is outside 1 to " + std::to_string(num_points))
-                                      .what());
-        }
-        is_in_range = false;
+      const long long point = words_.ReadInteger(face_name + ", point number");
+      if (point >= 1 && point <= num_points_) {
+        face.points.push_back(static_cast<int>(point - 1));
         continue;
       }
-      face.points.push_back(static_cast<int>(point - 1));
+      if (is_in_range) {
+        result_.faults.push_back(Error(name_,
+                                       words_.line(),
+                                       face_name + ": point number " + std::to_string(point) +
+                                           " is outside 1 to " + std::to_string(num_points_))
+                                     .what());
+      }
+      is_in_range = false;
     }
-    if (!is_in_range) {
-      face.points.clear();
-      is_told[static_cast<size_t>(i)] = 1;
-    }
-    last_lines.push_back(words.line());
-    for (int line = first_lines.back(); line <= last_lines.back(); ++line) ++faces_on_line[line];
-  }
-  if (words.NumLeft() > 0) {
-    words.ReadInteger("a word beyond the last face");
-    throw Error(name, words.line(), "there is more after the last face");
+    if (!is_in_range) face.points.clear();
+    is_told_.push_back(is_in_range ? 0 : 1);
+    last_lines_.push_back(words_.line());
   }
 
-  for (const TextLine& line : lines) {
-    if (const auto named = NameBeforeFace(line)) {
-      if (!line.tokens.empty()) continue;
+  void RequireEnd() {
+    if (words_.NumLeft() == 0) return;
+    words_.ReadInteger("a word beyond the last face");
+    throw Error(name_, words_.line(), "there is more after the last face");
+  }
+
+  void TakeNamesAboveFaces() {
+    for (const TextLine& line : lines_) {
+      const auto named = NameBeforeFace(line);
+      if (!named || !line.tokens.empty()) continue;
       // The face on the line below; files of version 0.1.0 called it by its place.
       const size_t below = static_cast<size_t>(
-          std::upper_bound(first_lines.begin(), first_lines.end(), line.number) -
-          first_lines.begin());
-      if (below < model.faces.size() && named->first == static_cast<long long>(below) + 1) {
-        model.faces[below].name = named->second;
-      } else if (const std::optional<int> face = FindFaceByNumber(model, named->first)) {
-        model.faces[static_cast<size_t>(*face)].name = named->second;
+          std::upper_bound(first_lines_.begin(), first_lines_.end(), line.number) -
+          first_lines_.begin());
+      if (below < model_.faces.size() && named->first == static_cast<long long>(below) + 1) {
+        model_.faces[below].name = named->second;
+      } else if (const std::optional<int> face = FindFaceByNumber(model_, named->first)) {
+        model_.faces[static_cast<size_t>(*face)].name = named->second;
       }
     }
   }
-  for (size_t i = 0; i < model.faces.size(); ++i) {
-    for (const int number : {first_lines[i], last_lines[i]}) {
-      const TextLine& line = lines[static_cast<size_t>(number - 1)];
-      if (!line.has_comment || line.comment.empty() || faces_on_line[number] != 1) continue;
-      const auto named = NameBeforeFace(line);
-      model.faces[i].name = named ? named->second : std::string(line.comment);
+
+  // A comment on a line that belongs to one face alone.
+  void TakeNamesBesideFaces() {
+    for (size_t i = 0; i < model_.faces.size(); ++i) {
+      for (const int number : {first_lines_[i], last_lines_[i]}) {
+        const TextLine& line = lines_[static_cast<size_t>(number - 1)];
+        if (!line.has_comment || line.comment.empty() || faces_on_line_[number] != 1) continue;
+        const auto named = NameBeforeFace(line);
+        model_.faces[i].name = named ? named->second : std::string(line.comment);
+      }
     }
   }
-  std::vector<FaceTexture> no_textures;
-  MendedFaces mended = MendFaces(name, first_lines, model, no_textures);
-  for (const MendedFaces::Fault& fault : mended.faults) {
-    const auto face = static_cast<size_t>(fault.face);
-    if (is_told[face]) continue;
-    result.faults.push_back(Error(name, first_lines[face], fault.text).what());
+
+  void LeaveOutFaultyFaces() {
+    std::vector<FaceTexture> no_textures;
+    MendedFaces mended = MendFaces(name_, first_lines_, model_, no_textures);
+    for (const MendedFaces::Fault& fault : mended.faults) {
+      const auto face = static_cast<size_t>(fault.face);
+      if (is_told_[face]) continue;
+      result_.faults.push_back(Error(name_, first_lines_[face], fault.text).what());
+    }
+    result_.reading.warnings = std::move(mended.warnings);
+    KeepFaces(mended.usable, model_, no_textures);
   }
-  result.reading.warnings = std::move(mended.warnings);
-  KeepFaces(mended.usable, model, no_textures);
-  return result;
-}
+
+  std::filesystem::path name_;
+  std::vector<TextLine> lines_;
+  WordReader words_;
+  OsuReading result_;
+  PolygonModel& model_ = result_.reading.model;
+  long long num_points_ = 0;
+  long long num_faces_ = 0;
+  // Of each face: where it stands, and whether its fault is known already.
+  std::vector<int> first_lines_;
+  std::vector<int> last_lines_;
+  std::vector<char> is_told_;
+  std::map<int, int> faces_on_line_;
+};
 
 // A name must stay on its line.
 std::string OneLineName(std::string name) {
@@ -281,7 +326,7 @@ std::string FormatPoint(const Eigen::Vector3d& point_in_site) {
 }  // namespace
 
 ModelReading ParseOsu(const std::string& text, const std::filesystem::path& name) {
-  OsuReading result = ReadAll(text, name);
+  OsuReading result = OsuReader(text, name).Read();
   if (!result.faults.empty()) throw Error(result.faults.front());
   return std::move(result.reading);
 }
@@ -292,7 +337,7 @@ ModelReading ReadOsu(const std::filesystem::path& file) {
 
 std::vector<std::string> FindOsuFaults(const std::string& text, const std::filesystem::path& name) {
   try {
-    return ReadAll(text, name).faults;
+    return OsuReader(text, name).Read().faults;
   } catch (const Error& error) {
     return {error.what()};
   }

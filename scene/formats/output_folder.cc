@@ -43,6 +43,25 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
+Manifest ManifestFromJson(const nlohmann::json& json) {
+  Manifest manifest;
+  manifest.version = json.at("version").get<std::string>();
+  manifest.command = json.at("command").get<std::string>();
+  manifest.seed = json.at("seed").get<uint64_t>();
+  manifest.options = json.at("options").get<std::map<std::string, std::string>>();
+  manifest.sha256_of_inputs = json.at("sha256_of_inputs").get<std::map<std::string, std::string>>();
+  for (const auto& stage : json.at("stages")) {
+    manifest.stages.push_back(
+        {stage.at("name").get<std::string>(),
+         stage.at("key").get<std::string>(),
+         stage.at("is_complete").get<bool>(),
+         stage.at("files").get<std::vector<std::string>>(),
+         // Earlier versions did not write them down.
+         stage.value("sha256_of_files", std::map<std::string, std::string>())});
+  }
+  return manifest;
+}
+
 }  // namespace
 
 std::string FormatManifest(const Manifest& manifest) {
@@ -90,12 +109,7 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
   if (failure) throw Error(folder, "cannot be made: " + failure.message());
   FolderLock lock(folder);
   if (std::filesystem::is_empty(folder)) return lock;
-  const std::filesystem::path file = folder / kFileName;
-  const bool is_ours = std::filesystem::exists(file) && [&] {
-    const auto json = nlohmann::json::parse(ReadTextFile(file), nullptr, false);
-    return json.is_object() && json.value("program", "") == kProgram;
-  }();
-  if (!is_ours) {
+  if (!ReadManifest(folder)) {
     throw Error(folder,
                 "holds files that are not ours (no manifest.json of groundglass); name an "
                 "empty or new folder");
@@ -109,25 +123,17 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
   return lock;
 }
 
-std::vector<StageRecord> ReadStages(const std::filesystem::path& folder) {
+std::optional<Manifest> ReadManifest(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kFileName;
-  if (!std::filesystem::exists(file)) return {};
+  if (!std::filesystem::exists(file)) return std::nullopt;
   const auto json = nlohmann::json::parse(ReadTextFile(file), nullptr, false);
-  std::vector<StageRecord> stages;
+  if (!json.is_object() || json.value("program", "") != kProgram) return std::nullopt;
   try {
-    for (const auto& stage : json.at("stages")) {
-      stages.push_back({stage.at("name").get<std::string>(),
-                        stage.at("key").get<std::string>(),
-                        stage.at("is_complete").get<bool>(),
-                        stage.at("files").get<std::vector<std::string>>(),
-                        // Earlier versions did not write them down.
-                        stage.value("sha256_of_files", std::map<std::string, std::string>())});
-    }
+    return ManifestFromJson(json);
   } catch (const nlohmann::json::exception&) {
     // Written by hand, or by an earlier version: nothing of it can be kept.
-    return {};
+    return Manifest();
   }
-  return stages;
 }
 
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest) {

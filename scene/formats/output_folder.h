@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,9 @@ std::string HashText(const std::string& text);
 // lives; Error if another process holds it.
 FolderLock PrepareOutputFolder(const std::filesystem::path& folder);
 
-// The stages that the folder's manifest.json records; none if there is none.
-std::vector<StageRecord> ReadStages(const std::filesystem::path& folder);
-
+// The folder's manifest.json; an empty one if not all of it is understood, nothing if there is none
+// or it is another program's.
+std::optional<Manifest> ReadManifest(const std::filesystem::path& folder);
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest);
 
 }  // namespace groundglass

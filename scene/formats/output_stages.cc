@@ -22,7 +22,9 @@ bool IsInside(const fs::path& file) {
 
 OutputStages::OutputStages(const fs::path& folder, Manifest manifest)
     : folder_(folder), manifest_(std::move(manifest)) {
-  manifest_.stages = ReadStages(folder);
+  if (std::optional<Manifest> before = ReadManifest(folder)) {
+    manifest_.stages = std::move(before->stages);
+  }
 }
 
 StageRecord* OutputStages::Find(const std::string& stage) {

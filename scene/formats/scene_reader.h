@@ -5,7 +5,7 @@
 
 #include "scene/error.h"
 #include "scene/formats/colmap_io.h"
-#include "scene/formats/scene_folder.h"
+#include "scene/formats/scene.h"
 #include "scene/text.h"
 
 #include <filesystem>
@@ -72,6 +72,8 @@ class SceneReader {
   // A name from a file's, which old archives may have in Latin-1.
   std::string NameInUtf8(const std::filesystem::path& file, const std::string& name);
   void ReadTags(const FilesByStem& images);
+  void ReadViewFiles(const std::filesystem::path& views);
+  void ReadTable(const std::filesystem::path& table, const FilesByStem& images);
   // The tags of a COLMAP model's cameras.
   void ReadGivenCameras(const ColmapFiles& files, const FilesByStem& images);
   void Match(const FilesByStem& images);

@@ -48,45 +48,9 @@ void SceneReader::ReadTags(const FilesByStem& images) {
   const bool has_table = !options_.views && fs::is_regular_file(table, error);
   if (fs::is_directory(views, error)) {
     if (has_table) Warn(table, "not read, since there is a folder views/");
-    for (const fs::path& file : ListFiles(views)) {
-      if (LowerCase(file.extension().string()) != ".view") {
-        Warn(file, "not a view file; expected the extension .view");
-        continue;
-      }
-      const std::string name = NameInUtf8(file, file.stem().string());
-      try {
-        const std::string text = ReadTextFile(file);
-        known_names_[name] = file;
-        const std::vector<std::string> faults = FindViewFaults(text, file);
-        for (const std::string& fault : faults) FaultOf(name, fault);
-        if (faults.empty()) tags_[name] = {ParseView(text, file), file};
-      } catch (const Error& read_error) {
-        known_names_[name] = file;
-        FaultOf(name, read_error.what());
-      }
-    }
+    ReadViewFiles(views);
   } else if (has_table) {
-    tags_place_ = "a row in tags.csv";
-    try {
-      const TagTable rows = ReadTagTable(table, result_.scene.model);
-      for (const std::string& fault : rows.faults) Fault(fault);
-      std::vector<std::string>& warnings = result_.scene.warnings;
-      warnings.insert(warnings.end(), rows.warnings.begin(), rows.warnings.end());
-      for (const TagRow& row : rows.rows) {
-        tags_[row.name] = {row.tag, {}};
-        known_names_[row.name] = table;
-      }
-      for (const auto& [name, faults] : rows.row_faults) {
-        for (const std::string& fault : faults) FaultOf(name, fault);
-        known_names_[name] = table;
-      }
-      if (!rows.faults.empty()) {
-        // A table that cannot be read may have any photograph: do not call them untagged.
-        for (const auto& [name, file] : images) known_names_.emplace(name, table);
-      }
-    } catch (const Error& read_error) {
-      Fault(read_error.what());
-    }
+    ReadTable(table, images);
   } else if (options_.views) {
     Fault(Error(*options_.views, kCamerasExpected).what());
   } else {
@@ -94,6 +58,50 @@ void SceneReader::ReadTags(const FilesByStem& images) {
                 std::string("no tags; expected a folder views/ with .view files, or tags.csv. ") +
                     kHowToBegin)
               .what());
+  }
+}
+
+void SceneReader::ReadViewFiles(const fs::path& views) {
+  for (const fs::path& file : ListFiles(views)) {
+    if (LowerCase(file.extension().string()) != ".view") {
+      Warn(file, "not a view file; expected the extension .view");
+      continue;
+    }
+    const std::string name = NameInUtf8(file, file.stem().string());
+    try {
+      const std::string text = ReadTextFile(file);
+      known_names_[name] = file;
+      const std::vector<std::string> faults = FindViewFaults(text, file);
+      for (const std::string& fault : faults) FaultOf(name, fault);
+      if (faults.empty()) tags_[name] = {ParseView(text, file), file};
+    } catch (const Error& read_error) {
+      known_names_[name] = file;
+      FaultOf(name, read_error.what());
+    }
+  }
+}
+
+void SceneReader::ReadTable(const fs::path& table, const FilesByStem& images) {
+  tags_place_ = "a row in tags.csv";
+  try {
+    const TagTable rows = ReadTagTable(table, result_.scene.model);
+    for (const std::string& fault : rows.faults) Fault(fault);
+    std::vector<std::string>& warnings = result_.scene.warnings;
+    warnings.insert(warnings.end(), rows.warnings.begin(), rows.warnings.end());
+    for (const TagRow& row : rows.rows) {
+      tags_[row.name] = {row.tag, {}};
+      known_names_[row.name] = table;
+    }
+    for (const auto& [name, faults] : rows.row_faults) {
+      for (const std::string& fault : faults) FaultOf(name, fault);
+      known_names_[name] = table;
+    }
+    if (!rows.faults.empty()) {
+      // A table that cannot be read may have any photograph: do not call them untagged.
+      for (const auto& [name, file] : images) known_names_.emplace(name, table);
+    }
+  } catch (const Error& read_error) {
+    Fault(read_error.what());
   }
 }
 

@@ -3,7 +3,6 @@
 #include "scene/formats/select_photographs.h"
 
 #include "scene/error.h"
-#include "scene/formats/photograph_name.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -11,9 +10,13 @@
 namespace groundglass {
 namespace {
 
-// All photographs that the scene has, those that cannot be used or were left out included, in
-// natural order.
-std::vector<PhotographName> KnownNames(const Scene& scene) {
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::vector<PhotographName> AllPhotographNames(const Scene& scene) {
   std::vector<PhotographName> known = NamesOf(scene.photographs);
   for (const UnreadablePhotograph& unreadable : scene.unreadable) {
     const Photograph& photograph = unreadable.photograph;
@@ -26,16 +29,10 @@ std::vector<PhotographName> KnownNames(const Scene& scene) {
   return known;
 }
 
-bool Contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-}  // namespace
-
 std::vector<std::string> FindPhotographNames(const Scene& scene,
                                              const std::vector<std::string>& names,
                                              const std::string& place) {
-  const std::vector<PhotographName> known = KnownNames(scene);
+  const std::vector<PhotographName> known = AllPhotographNames(scene);
   std::vector<std::string> found;
   for (const std::string& name : names) {
     std::optional<size_t> index;
@@ -64,7 +61,7 @@ void RequirePhotographs(const Scene& scene,
 }
 
 std::string NameInScene(const std::string& name, const Scene& scene) {
-  const std::vector<PhotographName> known = KnownNames(scene);
+  const std::vector<PhotographName> known = AllPhotographNames(scene);
   const std::optional<size_t> found = FindPhotograph(name, known);
   return found ? known[*found].name : name;
 }

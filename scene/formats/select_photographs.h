@@ -2,7 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/formats/scene_folder.h"
+#include "scene/formats/photograph_name.h"
+#include "scene/formats/scene.h"
 
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@ namespace groundglass {
 
 // Photographs are called by name or file, as scene/photograph_name.h finds them, those included
 // that cannot be used or were left out.
+
+// All of them, in natural order.
+std::vector<PhotographName> AllPhotographNames(const Scene& scene);
 
 // The scene's own names of these photographs. Throws Error if it has none of one of these names,
 // with the names there are. place: where the names stand, for the message ("option --only").

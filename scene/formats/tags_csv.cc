@@ -18,17 +18,19 @@
 namespace groundglass {
 namespace {
 
-constexpr std::array<std::string_view, 9> kOtherColumns = {"sigma_position",
-                                                           "sigma_height",
-                                                           "sigma_lookat",
-                                                           "sigma_roll",
-                                                           "sigma_v",
-                                                           "sigma_a",
-                                                           "sigma_shift",
-                                                           "sigma_k1",
-                                                           "camera"};
+// A column of a table that is none of a tag's keys.
+bool IsOtherColumn(std::string_view name) {
+  constexpr std::array<std::string_view, 7> kOthers = {
+      "image", "yaw", "pitch", "lat", "lon", "height", "camera"};
+  return std::find(kOthers.begin(), kOthers.end(), name) != kOthers.end() ||
+         std::any_of(kSigmaKeys.begin(), kSigmaKeys.end(), [&](const SigmaKey& key) {
+           return key.name == name;
+         });
+}
 
-// Earth-centred coordinates in metres (WGS 84).
+// Earth-centred coordinates in metres (WGS 84). Ours, since these six lines are exact, and all that
+// is asked of geodesy here: the libraries for it (PROJ, GeographicLib) are for other datums and for
+// maps' projections, and PROJ brings a database of them.
 Eigen::Vector3d EarthCentred(double latitude_deg, double longitude_deg, double height_m) {
   constexpr double kSemiMajor = 6378137.0;
   constexpr double kFlattening = 1 / 298.257223563;
@@ -74,9 +76,7 @@ class TableReader {
       const std::string& name = names[i];
       const bool is_known =
           std::find(kTagKeyNames.begin(), kTagKeyNames.end(), name) != kTagKeyNames.end() ||
-          std::find(kOtherColumns.begin(), kOtherColumns.end(), name) != kOtherColumns.end() ||
-          name == "image" || name == "yaw" || name == "pitch" || name == "lat" || name == "lon" ||
-          name == "height";
+          IsOtherColumn(name);
       if (!is_known) Fail(line, "unknown column " + Quote(names[i]));
       if (!columns_.emplace(name, i).second) Fail(line, "column " + Quote(name) + " is repeated");
     }

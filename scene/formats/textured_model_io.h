@@ -2,8 +2,6 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/formats/image_io.h"
-#include "scene/formats/model_io.h"
 #include "scene/textured_model.h"
 
 #include <cstdint>
@@ -29,17 +27,5 @@ void WriteTexturedObj(const std::filesystem::path& file,
                       const TexturedModel& model,
                       const std::string& image_extension = ".jpg",
                       const JpegPages& pages = {});
-
-// A model with its pages, and what was odd about it.
-struct TexturedModelReading {
-  TexturedModel textured;  // `faces`: one for each of the model's
-  std::vector<std::string> warnings;
-};
-
-// Reads any model as ReadModel does, with its textures if it is .glb, .gltf or .obj. Without
-// `with_pages` pictures are not opened.
-TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
-                                       const ModelOptions& options = {},
-                                       bool with_pages = true);
 
 }  // namespace groundglass

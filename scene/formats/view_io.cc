@@ -65,80 +65,114 @@ void StoreValue(const KeyValue& pair, double value, ViewTag& tag) {
 }
 
 // Reads everything it can; faults in the order of the file.
-ViewReading ReadPairs(const std::string& text, const std::filesystem::path& name) {
-  ViewReading reading;
-  reading.lines = SplitLines(text);
-  std::vector<TextToken> tokens;
-  for (const TextLine& line : reading.lines) {
-    tokens.insert(tokens.end(), line.tokens.begin(), line.tokens.end());
+class PairReader {
+ public:
+  PairReader(const std::string& text, const std::filesystem::path& name) : name_(name) {
+    reading_.lines = SplitLines(text);
+    for (const TextLine& line : reading_.lines) {
+      tokens_.insert(tokens_.end(), line.tokens.begin(), line.tokens.end());
+    }
   }
-  const auto fail = [&](int line, const std::string& message) {
-    reading.faults.push_back(Error(name, line, message).what());
-  };
-  std::string to_fill_in;
-  int first_to_fill_in = 0;
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    const TextToken& key = tokens[i];
-    const bool has_value = i + 1 < tokens.size() && !IsKey(tokens[i + 1].text);
+
+  ViewReading Read() {
+    while (next_ < tokens_.size()) {
+      if (const std::optional<KeyValue> pair = NextPair()) TakeValue(*pair);
+    }
+    RequireValues();
+    if (reading_.faults.empty()) RequireCamera();
+    return std::move(reading_);
+  }
+
+ private:
+  void Fail(int line, const std::string& message) {
+    reading_.faults.push_back(Error(name_, line, message).what());
+  }
+
+  // Nothing, and a fault, for one that cannot be used.
+  std::optional<KeyValue> NextPair() {
+    const TextToken key = tokens_[next_++];
+    const bool is_last = next_ == tokens_.size();
+    const bool has_value = !is_last && !IsKey(tokens_[next_].text);
     if (!IsKey(key.text)) {
-      fail(key.line,
+      Fail(key.line,
            "unknown key " + Quote(key.text) +
                "; the keys are x y z i j k a v roll shift_x shift_y k1 k2 k3 p1 p2 sigma_... "
                "camera");
-      if (has_value) ++i;
-      continue;
+      if (has_value) ++next_;
+      return std::nullopt;
     }
-    const std::string key_name = "key " + Quote(key.text);
-    if (!has_value && !(key.text == kCameraKey && i + 1 < tokens.size())) {
-      fail(key.line, key_name + " has no value");
-      continue;
+    // A camera may be called like a key.
+    if (!has_value && !(key.text == kCameraKey && !is_last)) {
+      Fail(key.line, "key " + Quote(key.text) + " has no value");
+      return std::nullopt;
     }
-    const KeyValue pair{key, tokens[++i]};
-    if (const KeyValue* first = FindPair(reading.pairs, key.text)) {
-      fail(key.line,
-           key_name + " is repeated; it stands on line " + std::to_string(first->key.line) +
-               " already");
-      continue;
+    const KeyValue pair{key, tokens_[next_++]};
+    if (const KeyValue* first = FindPair(reading_.pairs, key.text)) {
+      Fail(key.line,
+           "key " + Quote(key.text) + " is repeated; it stands on line " +
+               std::to_string(first->key.line) + " already");
+      return std::nullopt;
     }
-    reading.pairs.push_back(pair);
-    if (pair.value.text == kToBeFilledIn) {
-      if (to_fill_in.empty()) first_to_fill_in = key.line;
-      to_fill_in += (to_fill_in.empty() ? "" : ", ") + std::string(key.text);
-      continue;
+    reading_.pairs.push_back(pair);
+    return pair;
+  }
+
+  void TakeValue(const KeyValue& pair) {
+    const std::string_view word = pair.value.text;
+    if (word == kToBeFilledIn) {
+      if (to_fill_in_.empty()) first_to_fill_in_ = pair.key.line;
+      to_fill_in_ += (to_fill_in_.empty() ? "" : ", ") + std::string(pair.key.text);
+      return;
     }
-    if (key.text == kCameraKey) {
-      reading.tag.camera = pair.value.text;
-      continue;
+    if (pair.key.text == kCameraKey) {
+      reading_.tag.camera = word;
+      return;
     }
-    const std::optional<double> value = ParseNumber(pair.value.text);
+    const std::string key_name = "key " + Quote(pair.key.text);
+    const std::optional<double> value = ParseNumber(word);
     if (!value) {
-      fail(pair.value.line, key_name + ": " + Quote(pair.value.text) + " is not a number");
+      Fail(pair.value.line, key_name + ": " + Quote(word) + " is not a number");
     } else if (!std::isfinite(*value)) {
-      fail(pair.value.line, key_name + ": " + Quote(pair.value.text) + " is not a finite number");
-    } else if (FindSigmaKey(key.text) != nullptr && !(*value > 0)) {
-      fail(pair.value.line, key_name + ": a standard deviation must be above 0");
+      Fail(pair.value.line, key_name + ": " + Quote(word) + " is not a finite number");
+    } else if (FindSigmaKey(pair.key.text) != nullptr && !(*value > 0)) {
+      Fail(pair.value.line, key_name + ": a standard deviation must be above 0");
     } else {
-      StoreValue(pair, *value, reading.tag);
+      StoreValue(pair, *value, reading_.tag);
     }
   }
-  if (!to_fill_in.empty()) {
-    fail(first_to_fill_in,
-         "this template is not filled in yet: write a number in place of the ? of " + to_fill_in);
-  }
-  for (int index = 0; index < kNumRequiredKeys; ++index) {
-    if (FindPair(reading.pairs, kTagKeyNames[index]) == nullptr) {
-      reading.faults.push_back(
-          Error(name, "key " + Quote(kTagKeyNames[index]) + " is missing").what());
+
+  void RequireValues() {
+    if (!to_fill_in_.empty()) {
+      Fail(
+          first_to_fill_in_,
+          "this template is not filled in yet: write a number in place of the ? of " + to_fill_in_);
+    }
+    for (int index = 0; index < kNumRequiredKeys; ++index) {
+      if (FindPair(reading_.pairs, kTagKeyNames[index]) == nullptr) {
+        reading_.faults.push_back(
+            Error(name_, "key " + Quote(kTagKeyNames[index]) + " is missing").what());
+      }
     }
   }
-  if (reading.faults.empty()) {
-    if (const std::optional<TagFault> fault = FindTagFault(reading.tag)) {
-      const KeyValue* pair = FindPair(reading.pairs, fault->key);
-      fail(pair == nullptr ? 1 : pair->key.line,
-           "key " + Quote(fault->key) + ": " + fault->message);
-    }
+
+  void RequireCamera() {
+    const std::optional<TagFault> fault = FindTagFault(reading_.tag);
+    if (!fault) return;
+    const KeyValue* pair = FindPair(reading_.pairs, fault->key);
+    Fail(pair == nullptr ? 1 : pair->key.line, "key " + Quote(fault->key) + ": " + fault->message);
   }
-  return reading;
+
+  std::filesystem::path name_;
+  std::vector<TextToken> tokens_;
+  size_t next_ = 0;
+  ViewReading reading_;
+  // Keys whose value a template leaves open.
+  std::string to_fill_in_;
+  int first_to_fill_in_ = 0;
+};
+
+ViewReading ReadPairs(const std::string& text, const std::filesystem::path& name) {
+  return PairReader(text, name).Read();
 }
 
 // Two significant digits: a standard deviation is never known better.
@@ -208,6 +242,80 @@ size_t EndOfWords(const std::string& text, const TextLine& line) {
   return end;
 }
 
+// What changes on one line: its values, and the notes of what they were.
+void EditLine(const std::string& measured_text,
+              const ViewReading& reading,
+              const ViewTag& corrected,
+              const TagDeviations& deviations,
+              const TextLine& line,
+              std::vector<Edit>& edits) {
+  // A note belongs to the line on which its value stands.
+  std::vector<const KeyValue*> pairs;
+  for (const KeyValue& pair : reading.pairs) {
+    if (pair.value.line == line.number) pairs.push_back(&pair);
+  }
+  const auto replace_value = [&](const TextToken& value, double number) {
+    edits.push_back({value.offset, value.offset + value.text.size(), FormatNumber(number)});
+  };
+  const size_t comment_begin = line.tokens.empty()
+                                   ? line.offset
+                                   : line.tokens.back().offset + line.tokens.back().text.size();
+  const size_t line_end = EndOfWords(measured_text, line);
+  std::string new_notes;
+  for (const KeyValue* pair : pairs) {
+    if (const SigmaKey* sigma_key = FindSigmaKey(pair->key.text)) {
+      const std::optional<double>& sigma = corrected.sigmas.*(sigma_key->member);
+      if (sigma && *sigma != ParseNumber(pair->value.text)) replace_value(pair->value, *sigma);
+    }
+    const std::optional<TagKey> key = FindTagKey(pair->key.text);
+    if (!key) continue;
+    const double value = GetTagValue(corrected, *key);
+    const double deviation = deviations[static_cast<int>(*key)];
+    const bool is_changed = value != GetTagValue(reading.tag, *key);
+    if (is_changed) replace_value(pair->value, value);
+    const std::string note_key = pairs.size() > 1 ? std::string(pair->key.text) : "";
+    if (const auto note = FindNote(measured_text, comment_begin, line_end, note_key)) {
+      if (is_changed || deviation > 0) {
+        edits.push_back({note->begin, note->end, FormatNote(note_key, note->measured, deviation)});
+      }
+    } else if (is_changed) {
+      new_notes += " " + FormatNote(note_key, std::string(pair->value.text), deviation);
+    }
+  }
+  if (new_notes.empty()) return;
+  edits.push_back({line_end, line_end, (line.has_comment ? "" : " %") + new_notes});
+}
+
+std::string LineBreakOf(const std::string& text) {
+  if (text.find("\r\n") != std::string::npos) return "\r\n";
+  const bool has_only_returns =
+      text.find('\n') == std::string::npos && text.find('\r') != std::string::npos;
+  return has_only_returns ? "\r" : "\n";
+}
+
+// Lines for what the file has no key of.
+std::string FormatNewKeys(const ViewReading& reading,
+                          const ViewTag& corrected,
+                          const TagDeviations& deviations,
+                          const std::string& line_break) {
+  std::string text;
+  for (int index = kNumRequiredKeys; index < kNumTagKeys; ++index) {
+    const double value = GetTagValue(corrected, static_cast<TagKey>(index));
+    if (value == 0 || FindPair(reading.pairs, kTagKeyNames[index]) != nullptr) continue;
+    text += std::string(kTagKeyNames[index]) + " " + FormatNumber(value) + " % " +
+            FormatNote("", "", deviations[index]) + line_break;
+  }
+  for (const SigmaKey& key : kSigmaKeys) {
+    const std::optional<double>& sigma = corrected.sigmas.*(key.member);
+    if (!sigma || FindPair(reading.pairs, key.name) != nullptr) continue;
+    text += std::string(key.name) + " " + FormatNumber(*sigma) + line_break;
+  }
+  if (!corrected.camera.empty() && reading.tag.camera.empty()) {
+    text += std::string(kCameraKey) + " " + corrected.camera + line_break;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string ReadTextFile(const std::filesystem::path& file) {
@@ -265,74 +373,13 @@ std::string FormatCorrectedView(const std::string& measured_text,
                                 const TagDeviations& deviations) {
   const ViewReading reading = ReadPairs(measured_text, "view");
   if (!reading.faults.empty()) throw Error(reading.faults.front());
-
   std::vector<Edit> edits;
   for (const TextLine& line : reading.lines) {
-    // A note belongs to the line on which its value stands.
-    std::vector<const KeyValue*> pairs;
-    for (const KeyValue& pair : reading.pairs) {
-      if (pair.value.line == line.number) pairs.push_back(&pair);
-    }
-    const size_t comment_begin = line.tokens.empty()
-                                     ? line.offset
-                                     : line.tokens.back().offset + line.tokens.back().text.size();
-    const size_t line_end = EndOfWords(measured_text, line);
-    std::string new_notes;
-    for (const KeyValue* pair : pairs) {
-      if (const SigmaKey* sigma_key = FindSigmaKey(pair->key.text)) {
-        const std::optional<double>& sigma = corrected.sigmas.*(sigma_key->member);
-        if (sigma && *sigma != ParseNumber(pair->value.text)) {
-          edits.push_back({pair->value.offset,
-                           pair->value.offset + pair->value.text.size(),
-                           FormatNumber(*sigma)});
-        }
-      }
-      const std::optional<TagKey> key = FindTagKey(pair->key.text);
-      if (!key) continue;
-      const double value = GetTagValue(corrected, *key);
-      const double deviation = deviations[static_cast<int>(*key)];
-      const bool is_changed = value != GetTagValue(reading.tag, *key);
-      if (is_changed) {
-        edits.push_back({pair->value.offset,
-                         pair->value.offset + pair->value.text.size(),
-                         FormatNumber(value)});
-      }
-      const std::string note_key = pairs.size() > 1 ? std::string(pair->key.text) : "";
-      if (const auto note = FindNote(measured_text, comment_begin, line_end, note_key)) {
-        if (is_changed || deviation > 0) {
-          edits.push_back(
-              {note->begin, note->end, FormatNote(note_key, note->measured, deviation)});
-        }
-      } else if (is_changed) {
-        new_notes += " " + FormatNote(note_key, std::string(pair->value.text), deviation);
-      }
-    }
-    if (new_notes.empty()) continue;
-    edits.push_back({line_end, line_end, (line.has_comment ? "" : " %") + new_notes});
+    EditLine(measured_text, reading, corrected, deviations, line, edits);
   }
-
   std::string text = ApplyEdits(measured_text, edits);
-  const std::string line_break = measured_text.find("\r\n") != std::string::npos
-                                     ? "\r\n"
-                                     : (measured_text.find('\n') == std::string::npos &&
-                                                measured_text.find('\r') != std::string::npos
-                                            ? "\r"
-                                            : "\n");
-  std::string appended;
-  for (int index = kNumRequiredKeys; index < kNumTagKeys; ++index) {
-    const double value = GetTagValue(corrected, static_cast<TagKey>(index));
-    if (value == 0 || FindPair(reading.pairs, kTagKeyNames[index]) != nullptr) continue;
-    appended += std::string(kTagKeyNames[index]) + " " + FormatNumber(value) + " % " +
-                FormatNote("", "", deviations[index]) + line_break;
-  }
-  for (const SigmaKey& key : kSigmaKeys) {
-    const std::optional<double>& sigma = corrected.sigmas.*(key.member);
-    if (!sigma || FindPair(reading.pairs, key.name) != nullptr) continue;
-    appended += std::string(key.name) + " " + FormatNumber(*sigma) + line_break;
-  }
-  if (!corrected.camera.empty() && reading.tag.camera.empty()) {
-    appended += std::string(kCameraKey) + " " + corrected.camera + line_break;
-  }
+  const std::string line_break = LineBreakOf(measured_text);
+  const std::string appended = FormatNewKeys(reading, corrected, deviations, line_break);
   if (!appended.empty() && !text.empty() && text.back() != '\n' && text.back() != '\r') {
     text += line_break;
   }

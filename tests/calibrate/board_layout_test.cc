@@ -21,23 +21,23 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// What a detector would tell of the board, seen three times, with the tags' own corners.
-std::vector<std::vector<TagDetection>> See(const Board& board) {
-  std::vector<std::vector<TagDetection>> detections;
+// What a detector would tell of the board, seen three times, with the AprilTags' own corners.
+std::vector<std::vector<AprilTagDetection>> See(const Board& board) {
+  std::vector<std::vector<AprilTagDetection>> detections;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.4 * i - 0.3, Eigen::Vector3d::UnitX()) *
                                   Eigen::AngleAxisd(0.2 + 0.3 * i, Eigen::Vector3d::UnitZ()))
                                      .toRotationMatrix();
-    std::vector<TagDetection>& tags = detections.emplace_back();
+    std::vector<AprilTagDetection>& april_tags = detections.emplace_back();
     for (int index = i; index < board.columns * board.rows; ++index) {
-      TagDetection& tag = tags.emplace_back();
-      tag.id = board.first_id + index;
-      tag.border_cells = board.border_cells;
-      const Eigen::Matrix<double, 2, 4> corners = TagCornersOnBoard(board, index);
+      AprilTagDetection& april_tag = april_tags.emplace_back();
+      april_tag.id = board.first_id + index;
+      april_tag.border_cells = board.border_cells;
+      const Eigen::Matrix<double, 2, 4> corners = AprilTagCornersOnBoard(board, index);
       for (int corner = 0; corner < 4; ++corner) {
         Eigen::Vector3d in_cam = turn * Eigen::Vector3d(corners(0, corner), corners(1, corner), 0);
-        in_cam.z() += 20 * board.tag_size;
-        tag.corners_px.col(corner) =
+        in_cam.z() += 20 * board.april_tag_size;
+        april_tag.corners_px.col(corner) =
             Eigen::Vector2d(400, 300) + 700 * in_cam.head<2>() / in_cam.z();
       }
     }
@@ -78,10 +78,10 @@ TEST(BoardLayout, TellsWhichBoardIsToBeSeen) {
   board.columns = 5;
   board.rows = 7;
   board.first_id = 40;
-  board.tag_size = 8;
+  board.april_tag_size = 8;
   board.gap = 2.4;
   Board given;
-  given.tag_size = 8;
+  given.april_tag_size = 8;
   given.gap = 2;
   EXPECT_THAT(DescribeSeenBoard(given, See(board)),
               HasSubstr("tags 40 to 74 of tag36h11 in rows of 5, with a gap of 0.3 of the tag's "
@@ -100,7 +100,7 @@ std::vector<BoardPhotograph> KalibrPhotographs() {
 TEST(CalibrateBoard, ReadsKalibrsBoard) {
   Board board;
   board.columns = board.rows = 6;
-  board.tag_size = 0.088;
+  board.april_tag_size = 0.088;
   board.gap = 0.0264;
   const BoardResult result = CalibrateBoard(KalibrPhotographs(), board);
   EXPECT_THAT(result.layout,
@@ -119,7 +119,7 @@ TEST(CalibrateBoard, SaysWhatKalibrsBoardIsIfItIsDescribedWrongly) {
                             "size: --columns 6 --rows 6")));
   EXPECT_TRUE(CalibrateBoard(KalibrPhotographs(), as_printed).shows_other_board);
   Board ratio;
-  ratio.tag_size = 0.088;
+  ratio.april_tag_size = 0.088;
   ratio.gap = 0.3;
   EXPECT_THAT(ThrownMessage([&] { ratio.Check(); }),
               HasSubstr("if 0.3 is its ratio to the tag size, as Kalibr's tagSpacing, give --gap "
@@ -147,12 +147,12 @@ TEST(CalibrateBoard, SaysWhatElseThePicturesShow) {
 
   apriltag_family_t* family = tag25h9_create();
   Image8 other(600, 400, 1, 255);
-  for (int tag = 0; tag < 6; ++tag) {
-    image_u8_t* drawn = apriltag_to_image(family, tag);
+  for (int april_tag = 0; april_tag < 6; ++april_tag) {
+    image_u8_t* drawn = apriltag_to_image(family, april_tag);
     constexpr int kCellPx = 14;
     for (int y = 0; y < drawn->height * kCellPx; ++y) {
       for (int x = 0; x < drawn->width * kCellPx; ++x) {
-        *other.At(20 + tag % 3 * 190 + x, 20 + tag / 3 * 190 + y) =
+        *other.At(20 + april_tag % 3 * 190 + x, 20 + april_tag / 3 * 190 + y) =
             drawn->buf[y / kCellPx * drawn->stride + x / kCellPx];
       }
     }
@@ -172,7 +172,7 @@ TEST(KalibrTarget, IsRead) {
                    "tagSize: 0.088\ntagSpacing: 0.3  # ratio\ncodeOffset: 0\n"));
   EXPECT_EQ(board.columns, 6);
   EXPECT_EQ(board.rows, 5);
-  EXPECT_EQ(board.tag_size, 0.088);
+  EXPECT_EQ(board.april_tag_size, 0.088);
   EXPECT_NEAR(board.gap, 0.0264, 1e-12);
   EXPECT_THAT(ThrownMessage([&] {
                 ReadKalibrTarget(folder.Write("c.yaml", "target_type: 'checkerboard'\n"));

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "tests/calibrate/board_photographs.h"
 
-#include "calibrate/tag_detection.h"
+#include "calibrate/april_tag_detection.h"
 #include "scene/formats/image_io.h"
 #include "scene/srgb.h"
 
@@ -22,13 +22,15 @@ constexpr float kWall = 0.35F;  // what is behind the board
 }  // namespace
 
 BoardStudio::BoardStudio(const Board& board, const Camera& lens)
-    : board_(board), lens_(lens), cells_(kTagCells * board.columns, kTagCells * board.rows, 1) {
+    : board_(board),
+      lens_(lens),
+      cells_(kAprilTagCells * board.columns, kAprilTagCells * board.rows, 1) {
   for (int index = 0; index < board.columns * board.rows; ++index) {
-    const TagPattern is_white = GetTagPattern(board.first_id + index);
-    for (int row = 0; row < kTagCells; ++row) {
-      for (int column = 0; column < kTagCells; ++column) {
-        *cells_.At(index % board.columns * kTagCells + column,
-                   index / board.columns * kTagCells + row) = is_white(row, column) ? 255 : 0;
+    const AprilTagPattern is_white = GetAprilTagPattern(board.first_id + index);
+    for (int row = 0; row < kAprilTagCells; ++row) {
+      for (int column = 0; column < kAprilTagCells; ++column) {
+        *cells_.At(index % board.columns * kAprilTagCells + column,
+                   index / board.columns * kAprilTagCells + row) = is_white(row, column) ? 255 : 0;
       }
     }
   }
@@ -42,21 +44,21 @@ BoardStudio::BoardStudio(const Board& board, const Camera& lens)
 }
 
 bool BoardStudio::IsWhite(double x, double y) const {
-  const double pitch = board_.tag_size + board_.gap;
+  const double pitch = board_.april_tag_size + board_.gap;
   const double column = std::floor(x / pitch);
   const double row = std::floor(y / pitch);
-  const double u = (x - column * pitch) / board_.tag_size * kTagCells;
-  const double v = (y - row * pitch) / board_.tag_size * kTagCells;
+  const double u = (x - column * pitch) / board_.april_tag_size * kAprilTagCells;
+  const double v = (y - row * pitch) / board_.april_tag_size * kAprilTagCells;
   if (column < 0 || row < 0 || column >= board_.columns || row >= board_.rows) return true;
-  if (u >= kTagCells || v >= kTagCells) return true;
-  return *cells_.At(static_cast<int>(column) * kTagCells + static_cast<int>(u),
-                    static_cast<int>(row) * kTagCells + static_cast<int>(v)) != 0;
+  if (u >= kAprilTagCells || v >= kAprilTagCells) return true;
+  return *cells_.At(static_cast<int>(column) * kAprilTagCells + static_cast<int>(u),
+                    static_cast<int>(row) * kAprilTagCells + static_cast<int>(v)) != 0;
 }
 
 Image8 BoardStudio::Photograph(const RigidTransform& cam_from_board,
                                const Look& look,
                                std::mt19937_64& random) const {
-  const double pitch = board_.tag_size + board_.gap;
+  const double pitch = board_.april_tag_size + board_.gap;
   const Eigen::Vector2d end(board_.columns * pitch, board_.rows * pitch);
   // Where a ray meets the plane z = 0, homogeneous: the inverse of (r1 r2 t).
   Eigen::Matrix3d board_to_ray;
@@ -94,7 +96,7 @@ Image8 BoardStudio::Photograph(const RigidTransform& cam_from_board,
 }
 
 std::vector<RigidTransform> BoardStudio::MakePoses(int count, std::mt19937_64& random) const {
-  const double pitch = board_.tag_size + board_.gap;
+  const double pitch = board_.april_tag_size + board_.gap;
   const Eigen::Vector3d middle(
       0.5 * (board_.columns * pitch - board_.gap), 0.5 * (board_.rows * pitch - board_.gap), 0);
   std::uniform_real_distribution<double> uniform(-1, 1);

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "calibrate/board.h"
+#include "calibrate/calibrate_board.h"
 #include "scene/camera.h"
 
 #include <random>
@@ -35,7 +35,7 @@ class BoardStudio {
   Board board_;
   Camera lens_;
   std::vector<Eigen::Vector2f> rays_;  // x / z, y / z of each sample, row by row
-  Image8 cells_;                       // the board's tags, one cell a pixel: 255 white
+  Image8 cells_;                       // the board's AprilTags, one cell a pixel: 255 white
 };
 
 }  // namespace groundglass

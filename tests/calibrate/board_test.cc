@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "calibrate/board.h"
-
-#include "calibrate/tag_corners.h"
-#include "calibrate/tag_detection.h"
+#include "calibrate/april_tag_corners.h"
+#include "calibrate/april_tag_detection.h"
+#include "calibrate/calibrate_board.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/srgb.h"
@@ -80,12 +79,12 @@ TEST(Board, CornersGoRoundEachTagFromTheTopLeft) {
   Board board;
   board.columns = 3;
   board.rows = 2;
-  board.tag_size = 2;
+  board.april_tag_size = 2;
   board.gap = 0.5;
   Eigen::Matrix<double, 2, 4> expected;
   expected << 2.5, 4.5, 4.5, 2.5,  //
       2.5, 2.5, 4.5, 4.5;
-  EXPECT_EQ(TagCornersOnBoard(board, 4), expected);
+  EXPECT_EQ(AprilTagCornersOnBoard(board, 4), expected);
 }
 
 TEST(Board, ItsOwnPrintIsDetectedUprightAndWhole) {
@@ -94,48 +93,50 @@ TEST(Board, ItsOwnPrintIsDetectedUprightAndWhole) {
   board.rows = 2;
   board.first_id = 7;
   const Image8 print = DrawBoard(board);
-  const std::vector<TagDetection> tags = DetectTags(print);
-  ASSERT_EQ(tags.size(), 6u);
+  const std::vector<AprilTagDetection> april_tags = DetectAprilTags(print);
+  ASSERT_EQ(april_tags.size(), 6u);
   for (int index = 0; index < 6; ++index) {
-    EXPECT_EQ(tags[static_cast<size_t>(index)].id, 7 + index);
+    EXPECT_EQ(april_tags[static_cast<size_t>(index)].id, 7 + index);
   }
-  // Scale and origin from the first tag's diagonal; every corner must lie where the board says.
-  const Eigen::Vector2d origin = tags[0].corners_px.col(0);
-  const double scale = (tags[0].corners_px.col(1) - origin).x();
+  // Scale and origin from the first AprilTag's diagonal; every corner must lie where the board
+  // says.
+  const Eigen::Vector2d origin = april_tags[0].corners_px.col(0);
+  const double scale = (april_tags[0].corners_px.col(1) - origin).x();
   for (int index = 0; index < 6; ++index) {
     const Eigen::Matrix<double, 2, 4> expected =
-        (scale * TagCornersOnBoard(board, index)).colwise() + origin;
-    EXPECT_LT((tags[static_cast<size_t>(index)].corners_px - expected).cwiseAbs().maxCoeff(), 1.5);
+        (scale * AprilTagCornersOnBoard(board, index)).colwise() + origin;
+    EXPECT_LT((april_tags[static_cast<size_t>(index)].corners_px - expected).cwiseAbs().maxCoeff(),
+              1.5);
   }
 }
 
-TEST(TagCorners, AreGoodToAFewHundredthsOfAPixelAndSaySo) {
+TEST(AprilTagCorners, AreGoodToAFewHundredthsOfAPixelAndSaySo) {
   std::mt19937_64 random(3);
   const Camera lens = CameraFromTag(TrueTag(), kWidthPx, kHeightPx);
   double squared_px = 0;
   double chi2 = 0;
-  int num_tags = 0;
+  int num_april_tags = 0;
   for (const RigidTransform& pose : Studio().MakePoses(4, random)) {
     const Image8 grey = Studio().Photograph(pose, {}, random);
     const ImageF radiance = Linear(grey);
-    for (const TagDetection& detection : DetectTags(grey)) {
-      const auto tag = MeasureTagCorners(radiance, detection, Board{}.gap, lens);
-      if (!tag) continue;  // it leaves the frame
-      const Eigen::Matrix<double, 2, 4> on_board = TagCornersOnBoard(Board{}, tag->id);
-      Eigen::Matrix<double, 8, 1> error_px = tag->corners_px;
+    for (const AprilTagDetection& detection : DetectAprilTags(grey)) {
+      const auto april_tag = MeasureAprilTagCorners(radiance, detection, Board{}.gap, lens);
+      if (!april_tag) continue;  // it leaves the frame
+      const Eigen::Matrix<double, 2, 4> on_board = AprilTagCornersOnBoard(Board{}, april_tag->id);
+      Eigen::Matrix<double, 8, 1> error_px = april_tag->corners_px;
       for (int corner = 0; corner < 4; ++corner) {
         const Eigen::Vector3d in_board(on_board(0, corner), on_board(1, corner), 0);
         error_px.segment<2>(2 * corner) -= *ProjectFromCam(lens, pose * in_board);
       }
       squared_px += error_px.squaredNorm();
-      chi2 += error_px.dot(tag->information * error_px);
-      ++num_tags;
+      chi2 += error_px.dot(april_tag->information * error_px);
+      ++num_april_tags;
     }
   }
-  ASSERT_GT(num_tags, 80);
-  EXPECT_LT(std::sqrt(squared_px / (8 * num_tags)), 0.04);
+  ASSERT_GT(num_april_tags, 80);
+  EXPECT_LT(std::sqrt(squared_px / (8 * num_april_tags)), 0.04);
   // The spread of single edge points that the corners' covariances stand for.
-  EXPECT_LT(std::sqrt(chi2 / (8 * num_tags)), 0.12);
+  EXPECT_LT(std::sqrt(chi2 / (8 * num_april_tags)), 0.12);
 }
 
 TEST(CalibrateBoard, RecoversTheLensWithHonestDeviations) {
@@ -169,15 +170,17 @@ TEST(CalibrateBoard, AgreesWithOpenCvOnTheSameCorners) {
     ImageF radiance = Linear(photograph.srgb_grey);
     on_board.emplace_back();
     seen_px.emplace_back();
-    for (const TagDetection& detection : DetectTags(photograph.srgb_grey)) {
-      const auto tag = MeasureTagCorners(radiance, detection, Board{}.gap, lens);
-      if (!tag) continue;  // it leaves the frame
-      const Eigen::Matrix<float, 2, 4> corners = TagCornersOnBoard(Board{}, tag->id).cast<float>();
+    for (const AprilTagDetection& detection : DetectAprilTags(photograph.srgb_grey)) {
+      const auto april_tag = MeasureAprilTagCorners(radiance, detection, Board{}.gap, lens);
+      if (!april_tag) continue;  // it leaves the frame
+      const Eigen::Matrix<float, 2, 4> corners =
+          AprilTagCornersOnBoard(Board{}, april_tag->id).cast<float>();
       for (int corner = 0; corner < 4; ++corner) {
         on_board.back().emplace_back(corners(0, corner), corners(1, corner), 0.0F);
         // OpenCV's first pixel has its centre at (0, 0).
-        seen_px.back().emplace_back(static_cast<float>(tag->corners_px[2 * corner] - 0.5),
-                                    static_cast<float>(tag->corners_px[2 * corner + 1] - 0.5));
+        seen_px.back().emplace_back(
+            static_cast<float>(april_tag->corners_px[2 * corner] - 0.5),
+            static_cast<float>(april_tag->corners_px[2 * corner + 1] - 0.5));
       }
     }
   }
@@ -235,8 +238,8 @@ TEST(CalibrateBoard, LeavesOutAPhotographWithoutTheBoard) {
   const BoardResult result = CalibrateBoard(photographs, Board{});
   ASSERT_EQ(result.photographs.size(), 7u);
   EXPECT_EQ(result.photographs[2].name, "wall");
-  EXPECT_EQ(result.photographs[2].num_tags, 0);
-  EXPECT_GE(result.photographs[3].num_tags, 20);
+  EXPECT_EQ(result.photographs[2].num_april_tags, 0);
+  EXPECT_GE(result.photographs[3].num_april_tags, 20);
   for (double error : NormalisedErrors(result.lens)) EXPECT_LT(std::abs(error), 3.5);
 }
 

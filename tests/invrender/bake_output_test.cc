@@ -3,6 +3,7 @@
 #include "invrender/bake_output.h"
 
 #include "scene/formats/image_io.h"
+#include "scene/formats/model_io.h"
 #include "scene/formats/textured_model_io.h"
 #include "scene/formats/view_io.h"
 #include "scene/srgb.h"

@@ -5,6 +5,7 @@
 #include "scene/face_number.h"
 #include "scene/formats/convert.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/model_io.h"
 #include "scene/formats/osu_io.h"
 #include "scene/formats/textured_model_io.h"
 #include "scene/formats/view_io.h"

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include <fstream>
+#include <optional>
 
 namespace groundglass {
 namespace {
@@ -111,6 +112,38 @@ TEST(FormatCoverage, CountsFacesFromOneAsPeopleDo) {
   EXPECT_EQ(json["faces"][0]["name"], "east wall");
   EXPECT_EQ(json["faces"][0]["sources"][0]["photograph"], "s5");
   EXPECT_EQ(json["faces"][0]["sources"][0]["texels"], 250);
+}
+
+TEST(ReadCoverage, GivesBackWhatFormatCoverageWrote) {
+  const TemporaryFolder folder;
+  FaceCoverage face;
+  face.number = 12;
+  face.name = "south wall";
+  face.area = 0.1 + 0.2;
+  face.covered_area = 0.07;
+  face.num_texels = 40;
+  face.num_covered_texels = 9;
+  face.texel_size = 0.125;
+  face.sources = {{"s5", 7, 0.3}, {"s2", 2, 0.4}};
+  face.missing.emplace().centre_in_world = {1, 2, 3};
+  face.missing->stand_in_world = Eigen::Vector3d(4, -5, 6);
+  Coverage coverage;
+  coverage.faces = {face, FaceCoverage()};
+  coverage.faces[1].number = 13;
+  const std::string text = FormatCoverage(coverage);
+  const std::optional<Coverage> read = ReadCoverage(folder.Write("coverage.json", text));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(FormatCoverage(*read), text);
+  EXPECT_TRUE(read->faces[0].missing->stand_in_world == face.missing->stand_in_world);
+  EXPECT_EQ(read->CoveredShare(), 0.07 / (0.1 + 0.2));
+}
+
+TEST(ReadCoverage, WhatIsNotOursGivesNothing) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(ReadCoverage(folder / "missing.json"));
+  EXPECT_FALSE(ReadCoverage(folder.Write("a.json", "not json")));
+  EXPECT_FALSE(ReadCoverage(folder.Write("b.json", "[1, 2]")));
+  EXPECT_FALSE(ReadCoverage(folder.Write("c.json", "{\"faces\": [{\"face\": \"one\"}]}")));
 }
 
 }  // namespace

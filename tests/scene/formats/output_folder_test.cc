@@ -58,13 +58,19 @@ TEST(PrepareOutputFolder, AFolderThatAnotherRunWritesIntoIsRefused) {
 
 TEST(Manifest, KeepsTheStages) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(ReadStages(folder.path()).empty());
+  EXPECT_FALSE(ReadManifest(folder.path()));
   Manifest manifest;
+  manifest.seed = 1988;
+  manifest.options = {{"bits", "8"}};
   manifest.stages = {
       {"register", "00", true, {"registration.json", "views/s1.view"}, {{"views/s1.view", "ab"}}},
       {"texture", "01", false, {}, {}}};
   WriteManifest(folder.path(), manifest);
-  const std::vector<StageRecord> stages = ReadStages(folder.path());
+  const std::optional<Manifest> read = ReadManifest(folder.path());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->seed, 1988u);
+  EXPECT_EQ(read->options, manifest.options);
+  const std::vector<StageRecord>& stages = read->stages;
   ASSERT_EQ(stages.size(), 2u);
   EXPECT_EQ(stages[0].key, "00");
   EXPECT_TRUE(stages[0].is_complete);
@@ -72,7 +78,8 @@ TEST(Manifest, KeepsTheStages) {
   EXPECT_EQ(stages[0].sha256_of_files, manifest.stages[0].sha256_of_files);
   EXPECT_FALSE(stages[1].is_complete);
   folder.Write("manifest.json", "{\"program\": \"groundglass\", \"stages\": 3}");
-  EXPECT_TRUE(ReadStages(folder.path()).empty());
+  ASSERT_TRUE(ReadManifest(folder.path()));
+  EXPECT_TRUE(ReadManifest(folder.path())->stages.empty());
 }
 
 }  // namespace

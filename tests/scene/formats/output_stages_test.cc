@@ -106,7 +106,8 @@ TEST(OutputStages, WhatAnotherKeyLeftIsRemovedAndNothingElse) {
   EXPECT_FALSE(folder.Has("views/s1.view"));
   EXPECT_TRUE(folder.Has("views/mine.txt"));
   EXPECT_TRUE(folder.Has("notes.txt"));
-  EXPECT_TRUE(ReadStages(folder.path()).empty());
+  ASSERT_TRUE(ReadManifest(folder.path()));
+  EXPECT_TRUE(ReadManifest(folder.path())->stages.empty());
 }
 
 TEST(OutputStages, FoldersThatBecomeEmptyGo) {

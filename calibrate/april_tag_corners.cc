@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "calibrate/tag_corners.h"
+#include "calibrate/april_tag_corners.h"
+
+#include "scene/quantile.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace groundglass {
@@ -104,8 +107,7 @@ std::optional<EdgeLine> FitLine(std::vector<Eigen::Vector2d> points,
     };
     std::vector<double> distances;
     for (const Eigen::Vector2d& point : points) distances.push_back(distance(point));
-    std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
-    const double spread = std::max(1.48 * distances[distances.size() / 2], 0.02);
+    const double spread = std::max(1.48 * UpperMedian(std::move(distances)), 0.02);
     const size_t removed = std::erase_if(points, [&](const Eigen::Vector2d& point) {
       return distance(point) > kOutlierSpreads * spread;
     });
@@ -127,16 +129,16 @@ std::optional<EdgeLine> FitLine(std::vector<Eigen::Vector2d> points,
 
 }  // namespace
 
-std::optional<TagCorners> MeasureTagCorners(const ImageF& radiance_grey,
-                                            const TagDetection& start,
-                                            double gap_share,
-                                            const Camera& lens) {
+std::optional<AprilTagCorners> MeasureAprilTagCorners(const ImageF& radiance_grey,
+                                                      const AprilTagDetection& start,
+                                                      double gap_share,
+                                                      const Camera& lens) {
   // Undistorted pixels: normalised coordinates at the focal length's scale.
   const auto undistort = [&lens](const Eigen::Vector2d& image_px) -> Eigen::Vector2d {
     const Eigen::Vector3d ray = UnprojectToCam(lens, image_px);
     return {lens.focal_x_px * ray.x(), lens.focal_y_px * ray.y()};
   };
-  const double border_share = start.border_cells / (kTagCells - 2.0 + 2 * start.border_cells);
+  const double border_share = start.border_cells / (kAprilTagCells - 2.0 + 2 * start.border_cells);
   std::array<EdgeLine, 4> lines;
   for (int edge = 0; edge < 4; ++edge) {
     // Edges go round clockwise on the screen, so the white is on the left of the direction.
@@ -145,7 +147,7 @@ std::optional<TagCorners> MeasureTagCorners(const ImageF& radiance_grey,
     const double length_px = (to - from).norm();
     const Eigen::Vector2d along = (to - from) / length_px;
     const Eigen::Vector2d outward(along.y(), -along.x());
-    // The tag's depth across this edge says how wide its black border and the gap appear.
+    // The AprilTag's depth across this edge says how wide its black border and the gap appear.
     const Eigen::Vector2d opposite =
         0.5 * (start.corners_px.col((edge + 2) % 4) + start.corners_px.col((edge + 3) % 4));
     const double depth_px = -outward.dot(opposite - 0.5 * (from + to));
@@ -169,7 +171,7 @@ std::optional<TagCorners> MeasureTagCorners(const ImageF& radiance_grey,
     lines[static_cast<size_t>(edge)] = *line;
   }
 
-  TagCorners result;
+  AprilTagCorners result;
   result.id = start.id;
   // From the deviations of the lines' ends (start and end of edge 0, 1, 2, 3) to the corners'.
   Eigen::Matrix<double, 8, 8> corners_from_ends = Eigen::Matrix<double, 8, 8>::Zero();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "calibrate/tag_detection.h"
+#include "calibrate/april_tag_detection.h"
 
 #include "scene/error.h"
 
@@ -23,7 +23,7 @@ namespace {
 
 // Detecting at half resolution costs little once edges are snapped, and a quarter of the time.
 constexpr int kFullDetailWidthPx = 1600;
-// A tag needs this much contrast between its cells (grey levels).
+// An AprilTag needs this much contrast between its cells (grey levels).
 constexpr float kMinDecisionMargin = 20;
 
 using FamilyPtr = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
@@ -69,12 +69,12 @@ void Detect(const Image8& srgb_grey,
 
 }  // namespace
 
-std::vector<TagDetection> DetectTags(const Image8& srgb_grey) {
+std::vector<AprilTagDetection> DetectAprilTags(const Image8& srgb_grey) {
   const FamilyPtr narrow = MakeFamily(1);
   const FamilyPtr wide = MakeFamily(2);
-  std::map<int, std::vector<TagDetection>> by_id;
+  std::map<int, std::vector<AprilTagDetection>> by_id;
   Detect(srgb_grey, {narrow.get(), wide.get()}, 1, [&](const apriltag_detection_t& raw) {
-    TagDetection detection;
+    AprilTagDetection detection;
     detection.id = raw.id;
     detection.border_cells = raw.family == wide.get() ? 2 : 1;
     // The library goes round from the bottom left: (-1, 1), (1, 1), (1, -1), (-1, -1), y down.
@@ -85,16 +85,16 @@ std::vector<TagDetection> DetectTags(const Image8& srgb_grey) {
     }
     by_id[raw.id].push_back(detection);
   });
-  std::vector<TagDetection> detections;
+  std::vector<AprilTagDetection> detections;
   for (const auto& [id, seen] : by_id) {
     if (seen.size() == 1) detections.push_back(seen.front());
   }
   return detections;
 }
 
-std::string DescribeOtherTags(const Image8& srgb_grey) {
+std::string DescribeOtherAprilTags(const Image8& srgb_grey) {
   // Fewer than so many may be chance, in the families with few bits above all.
-  constexpr int kMinTags = 4;
+  constexpr int kMinAprilTags = 4;
   struct OtherFamily {
     const char* name;
     FamilyPtr family;
@@ -119,7 +119,7 @@ std::string DescribeOtherTags(const Image8& srgb_grey) {
       others.begin(), others.end(), [](const OtherFamily& a, const OtherFamily& b) {
         return a.num_found < b.num_found;
       });
-  if (most->num_found >= kMinTags) {
+  if (most->num_found >= kMinAprilTags) {
     return "the pictures show tags of the family " + std::string(most->name) +
            ", of which no board is read; use one of tag36h11, as --print draws it";
   }
@@ -127,28 +127,28 @@ std::string DescribeOtherTags(const Image8& srgb_grey) {
   for (int y = 0; y < changed.height; ++y) {
     std::reverse(changed.At(0, y), changed.At(0, y) + changed.width);
   }
-  if (DetectTags(changed).size() >= kMinTags) {
+  if (DetectAprilTags(changed).size() >= kMinAprilTags) {
     return "the pictures are mirrored; turn the slides round, or flip them left to right";
   }
   std::transform(
       srgb_grey.values.begin(), srgb_grey.values.end(), changed.values.begin(), [](uint8_t value) {
         return static_cast<uint8_t>(255 - value);
       });
-  if (DetectTags(changed).size() >= kMinTags) {
+  if (DetectAprilTags(changed).size() >= kMinAprilTags) {
     return "the pictures are negatives; invert their brightness";
   }
   return "no AprilTags are to be seen; the board's tags need to be sharp, evenly lit, and 20 px or "
          "more wide";
 }
 
-TagPattern GetTagPattern(int id) {
-  if (id < 0 || id >= kNumTagIds) {
+AprilTagPattern GetAprilTagPattern(int id) {
+  if (id < 0 || id >= kNumAprilTagIds) {
     throw Error("tag " + std::to_string(id) + ": the family tag36h11 has tags 0 to " +
-                std::to_string(kNumTagIds - 1));
+                std::to_string(kNumAprilTagIds - 1));
   }
   const FamilyPtr family(tag36h11_create(), tag36h11_destroy);
   // The code's bits from the highest on, each with its cell; the border stays black.
-  TagPattern is_white = TagPattern::Constant(false);
+  AprilTagPattern is_white = AprilTagPattern::Constant(false);
   for (uint32_t bit = 0; bit < family->nbits; ++bit) {
     const bool is_set = (family->codes[id] >> (family->nbits - 1 - bit)) & 1;
     is_white(family->bit_y[bit], family->bit_x[bit]) = is_set;
