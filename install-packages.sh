@@ -11,7 +11,7 @@ build=(g++ cmake ninja-build pkg-config
   libopencv-dev libceres-dev libeigen3-dev libtbb-dev libembree-dev
   libopenimageio-dev openimageio-tools  # its CMake file asks for its programs too
   liblcms2-dev libjpeg-dev libutf8proc-dev libtinygltf-dev libstb-dev nlohmann-json3-dev
-  libcli11-dev libssl-dev
+  libcli11-dev libssl-dev libfmt-dev libkainjow-mustache-dev
   libapriltag-dev libosmesa6-dev ffmpeg)
 test=(libgtest-dev libgmock-dev libbenchmark-dev colmap)
 tidy=(clang-tidy)

@@ -71,7 +71,7 @@ endforeach()
 # Third parties by the first part of their path, and the files (regular expression on the path in
 # the tree) that may include them.
 set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI
-    nlohmann openssl tbb stb sys)
+    fmt kainjow nlohmann openssl tbb stb sys)
 set(owners_Eigen "\\.(h|cc)$")
 set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|report|datasets-synthetic|evaluate)/.*\\.cc$")
 set(owners_OpenImageIO "^(scene/formats/(image_(io|write|kind)|open_image|ignore_mask)|invrender/.*)\\.cc$")
@@ -82,7 +82,9 @@ set(owners_GL "^viewer/.*\\.cc$")
 set(owners_EGL "^viewer/.*\\.cc$")
 set(owners_CLI "^cli/.*\\.(h|cc)$")
 set(owners_nlohmann "(\\.cc|^cli/.*\\.h)$")
-set(owners_openssl "^scene/formats/output_folder\\.cc$")
+set(owners_fmt "^(report|evaluate)/.*\\.cc$")
+set(owners_kainjow "^report/.*\\.cc$")  # with the headers that are not installed
+set(owners_openssl "^(scene/formats/output_folder|report/embedded_picture)\\.cc$")
 set(owners_tbb "\\.cc$")
 set(owners_stb "\\.cc$")
 set(owners_sys "\\.cc$")

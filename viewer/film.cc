@@ -3,115 +3,25 @@
 #include "viewer/film.h"
 
 #include "scene/check_option.h"
+#include "scene/child_process.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 
-#include <fcntl.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <string>
 #include <vector>
 
 namespace groundglass {
 namespace {
 
-constexpr int kProgramNotFound = 127;
-
-// The ffmpeg program with frames going in on its standard input. The input is a socket rather than
-// a pipe, so that a program that has died is an error here and not a signal to the whole process.
-class Encoder {
- public:
-  Encoder(const std::vector<std::string>& command) : program_(command.front()) {
-    messages_ = std::tmpfile();
-    int ends[2] = {-1, -1};
-    if (!messages_ || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-      throw Error("film: cannot connect to " + program_ + ": " + std::strerror(errno));
-    }
-    std::vector<char*> arguments;
-    for (const std::string& argument : command) {
-      arguments.push_back(const_cast<char*>(argument.c_str()));
-    }
-    arguments.push_back(nullptr);
-    input_ = ends[0];
-    process_ = fork();
-    if (process_ == 0) {
-      dup2(ends[1], STDIN_FILENO);
-      dup2(fileno(messages_), STDOUT_FILENO);
-      dup2(fileno(messages_), STDERR_FILENO);
-      execvp(arguments[0], arguments.data());
-      _exit(kProgramNotFound);
-    }
-    close(ends[1]);
-    if (process_ < 0) throw Error("film: cannot start " + program_ + ": " + std::strerror(errno));
-  }
-  Encoder(const Encoder&) = delete;
-  Encoder& operator=(const Encoder&) = delete;
-  ~Encoder() {
-    Close();
-    if (process_ > 0) waitpid(process_, nullptr, 0);
-    if (messages_) std::fclose(messages_);
-  }
-
-  // False if the program takes no more; Finish() then tells why.
-  bool Write(const std::vector<uint8_t>& bytes) {
-    size_t sent = 0;
-    while (sent < bytes.size()) {
-      const ssize_t now = send(input_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-      if (now < 0 && errno == EINTR) continue;
-      if (now < 0) return false;
-      sent += static_cast<size_t>(now);
-    }
-    return true;
-  }
-
-  // Waits for the program to end; Error with its own last words if it failed.
-  void Finish() {
-    Close();
-    int status = 0;
-    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-    }
-    process_ = -1;
-    // It may end with 0 although it could not write the end; with -loglevel error, whatever it says
-    // is a failure.
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && LastMessage().empty()) return;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == kProgramNotFound) {
-      throw Error("film: the program " + program_ +
-                  " was not found; install it (Debian: apt-get install ffmpeg)");
-    }
-    const std::string message = LastMessage();
-    throw Error("film: " + program_ +
-                " failed: " + (message.empty() ? "it said nothing" : message));
-  }
-
- private:
-  void Close() {
-    if (input_ >= 0) close(input_);
-    input_ = -1;
-  }
-
-  std::string LastMessage() {
-    std::rewind(messages_);
-    std::string last;
-    char line[500];
-    while (std::fgets(line, sizeof(line), messages_)) {
-      std::string text = line;
-      while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-      if (!text.empty()) last = text;
-    }
-    return last;
-  }
-
-  std::string program_;
-  FILE* messages_ = nullptr;
-  int input_ = -1;
-  pid_t process_ = -1;
-};
+// Waits for the encoder to end; Error with its own last words if it failed.
+void FinishFilm(ChildProcess& encoder, const FilmOptions& options) {
+  const ProgramResult result = encoder.Finish();
+  // It may end with 0 although it could not write the end; with -loglevel error, whatever it says
+  // is a failure.
+  const bool is_silent = result.errors.empty() && result.output.empty();
+  if (result.exit_code == 0 && is_silent) return;
+  throw Error("film: " + options.ffmpeg.string() + " failed: " + LastWords(result));
+}
 
 std::vector<std::string> EncoderCommand(const Image8& first_frame,
                                         const FilmOptions& options,
@@ -187,14 +97,16 @@ void WriteFilm(const std::filesystem::path& file,
   }
   const size_t frame_size = picture.values.size();
   WriteFileAtomically(file, [&](const std::filesystem::path& temporary) {
-    Encoder encoder(EncoderCommand(picture, options, temporary));
+    ProgramOptions program;
+    program.package = "ffmpeg";
+    ChildProcess encoder(EncoderCommand(picture, options, temporary), program);
     for (int i = 0; i < num_frames; ++i) {
       if (i > 0) picture = frame(i);
       if (picture.values.size() != frame_size) throw Error(file, "its frames differ in size");
       if (!encoder.Write(picture.values)) break;
       if (progress) progress(i + 1, num_frames, "frame");
     }
-    encoder.Finish();
+    FinishFilm(encoder, options);
   });
 }
 

@@ -91,6 +91,25 @@ void FitTarget(const GlFunctions& gl,
   target = MakeTarget(gl, width, height, multisamples, kind);
 }
 
+void BindTarget(const GlFunctions& gl, const RenderTarget& target) {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.Name());
+  gl.Viewport(0, 0, target.width, target.height);
+}
+
+void AverageSamples(const GlFunctions& gl, const RenderTarget& from, const RenderTarget& to) {
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer.Name());
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.framebuffer.Name());
+  gl.BlitFramebuffer(
+      0, 0, from.width, from.height, 0, 0, to.width, to.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+std::vector<GLuint> ReadLabels(const GlFunctions& gl, const RenderTarget& target) {
+  std::vector<GLuint> labels(static_cast<size_t>(target.width) * target.height);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.Name());
+  gl.ReadPixels(0, 0, target.width, target.height, GL_RED_INTEGER, GL_UNSIGNED_INT, labels.data());
+  return labels;
+}
+
 Image8 ReadPicture(const GlFunctions& gl, const RenderTarget& target, bool with_alpha) {
   Image8 rgba(target.width, target.height, 4);
   gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.Name());

@@ -5,6 +5,8 @@
 #include "scene/image.h"
 #include "viewer/gl_functions.h"
 
+#include <vector>
+
 namespace groundglass {
 
 enum class TargetKind { kColour, kColourAndDepth, kLabelsAndDepth };
@@ -29,8 +31,16 @@ void FitTarget(const GlFunctions& gl,
                int multisamples,
                TargetKind kind);
 
+// What is drawn next goes into the whole of this target.
+void BindTarget(const GlFunctions& gl, const RenderTarget& target);
+
+// Averages the samples of each pixel's colour into a target of the same size with one.
+void AverageSamples(const GlFunctions& gl, const RenderTarget& from, const RenderTarget& to);
+
 // What was drawn into a target of one sample: RGBA, its colours no longer weighted by the covered
 // share, or RGB.
 Image8 ReadPicture(const GlFunctions& gl, const RenderTarget& target, bool with_alpha);
+// The numbers that were drawn into a target of labels, row by row.
+std::vector<GLuint> ReadLabels(const GlFunctions& gl, const RenderTarget& target);
 
 }  // namespace groundglass

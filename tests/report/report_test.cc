@@ -2,7 +2,8 @@
 // Part of Groundglass.
 #include "report/report.h"
 
-#include "report/report_html.h"
+#include "report/embedded_picture.h"
+#include "report/report_text.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
@@ -22,15 +23,19 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(ReportHtml, Base64IsThatOfRfc4648) {
-  EXPECT_EQ(EncodeBase64(""), "");
-  EXPECT_EQ(EncodeBase64("f"), "Zg==");
-  EXPECT_EQ(EncodeBase64("fo"), "Zm8=");
-  EXPECT_EQ(EncodeBase64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(EncodeBase64(std::string("\xff\xfe\x00", 3)), "//4A");
+std::string Base64Of(std::string_view text) {
+  return EncodeBase64({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
-TEST(ReportHtml, NumbersHaveTheDecimalsThatTheirDeviationGivesSenseTo) {
+TEST(ReportText, Base64IsThatOfRfc4648) {
+  EXPECT_EQ(Base64Of(""), "");
+  EXPECT_EQ(Base64Of("f"), "Zg==");
+  EXPECT_EQ(Base64Of("fo"), "Zm8=");
+  EXPECT_EQ(Base64Of("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(Base64Of({"\xff\xfe\x00", 3}), "//4A");
+}
+
+TEST(ReportText, NumbersHaveTheDecimalsThatTheirDeviationGivesSenseTo) {
   EXPECT_EQ(FormatRounded(231.4187301, 0.0312), "231.419");
   EXPECT_EQ(FormatRounded(-2.5, 0.4), "\u22122.50");
   EXPECT_EQ(FormatRounded(1504.3, 120), "1504");
@@ -39,12 +44,17 @@ TEST(ReportHtml, NumbersHaveTheDecimalsThatTheirDeviationGivesSenseTo) {
   EXPECT_EQ(FormatSigma(0.0312), "0.031");
 }
 
-TEST(ReportHtml, SharesAreNeverFalselyWhole) {
+TEST(ReportText, SharesAreNeverFalselyWhole) {
   EXPECT_EQ(FormatShare(0), "0 %");
-  EXPECT_EQ(FormatShare(0.004), "&lt; 1 %");
+  EXPECT_EQ(FormatShare(0.004), "< 1 %");
   EXPECT_EQ(FormatShare(0.873), "87 %");
-  EXPECT_EQ(FormatShare(0.9999), "&gt; 99 %");
+  EXPECT_EQ(FormatShare(0.9999), "> 99 %");
   EXPECT_EQ(FormatShare(1), "100 %");
+}
+
+TEST(ReportText, AddressesOfLinksHoldNoSignOfTheirOwn) {
+  EXPECT_EQ(EncodeForAddress("round_1-b.mp4"), "round_1-b.mp4");
+  EXPECT_EQ(EncodeForAddress("100 %?#\u00fc.mp4"), "100%20%25%3F%23%C3%BC.mp4");
 }
 
 class ReportOf : public testing::Test {
@@ -169,6 +179,56 @@ TEST_F(ReportOf, ShowsBeforeAndAfterWhenItHasTheScene) {
   EXPECT_THAT(html, HasSubstr("<figcaption>as measured</figcaption>"));
   EXPECT_THAT(html, HasSubstr("<figcaption>corrected</figcaption>"));
   EXPECT_THAT(html, HasSubstr(" ft"));
+}
+
+// What stands between > and < or between quotes must not be markup, whoever wrote it.
+TEST_F(ReportOf, NamesAreTextWhateverTheyHold) {
+  const std::string name = "<b>&\"x";
+  const std::string safe = "&lt;b&gt;&amp;&quot;x";
+  WriteRegistrations();
+  std::vector<Registration> registrations = ReadRegistrations(folder_ / "registration.json");
+  registrations[0].name = name;
+  registrations[0].reasons = {"{{title}} <i>"};
+  const ModelError cornice = {name, {}, {1, 0, 0}, {0, 0.25, -0.3}, 0.05, 4};
+  WriteFileAtomically(folder_ / "registration.json", FormatRegistrations(registrations, {cornice}));
+  WriteFileAtomically(folder_ / "coverage.json",
+                      R"({"covered_share": 0.002, "faces": [{"face": 1, "name": "<b>&\"x",
+                          "area": 8, "covered_area": 8, "covered_texels": 100, "texel_size": 0.05,
+                          "sources": [{"photograph": "<b>&\"x", "texels": 100}]}]})");
+  WriteFileAtomically(folder_ / "manifest.json", R"({"version": "<b>&\"x", "seed": "<b>"})");
+  WriteSrgb8(folder_ / "overlays" / (name + ".jpg"), MakePlainPage(30, 20, 120, 90, 60));
+  WriteSrgb8(folder_ / "renders" / (name + ".png"), MakePlainPage(60, 40, 9, 9, 9));
+  WriteFileAtomically(folder_ / "renders" / (name + ".mp4"), std::string());
+  Scene scene;
+  scene.folder = folder_.parent_path() / name;
+  scene.model = MakeCheckeredBox().model;
+  scene.warnings = {"tags.csv: " + name};
+  const std::string html = MakeReport(folder_, &scene);
+  EXPECT_THAT(html, Not(HasSubstr(name)));
+  EXPECT_THAT(html, HasSubstr("<title>" + safe + " \u2013 Groundglass</title>"));
+  EXPECT_THAT(html, HasSubstr("<td><a href=\"#" + safe + "\">" + safe + "</a></td>"));
+  EXPECT_THAT(html, HasSubstr("id=\"" + safe + "\">\n<header><h3>" + safe + "</h3>"));
+  EXPECT_THAT(html, HasSubstr("alt=\"" + safe + " with the model's edges\""));
+  EXPECT_THAT(html, HasSubstr("alt=\"new view " + safe + "\""));
+  EXPECT_THAT(html, HasSubstr("<a href=\"renders/%3Cb%3E%26%22x.mp4\">" + safe + ".mp4</a>"));
+  EXPECT_THAT(html, HasSubstr("<td>" + safe + " <span class=\"soft\">100 %</span></td>"));
+  EXPECT_THAT(html, HasSubstr("<td>" + safe + "</td><td class=\"n\">8.0</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>" + safe + "</td><td class=\"n\">+0.000</td>"));
+  EXPECT_THAT(html, HasSubstr("<li>tags.csv: " + safe + "</li>"));
+  EXPECT_THAT(html, HasSubstr("Made by Groundglass " + safe + ", seed &quot;&lt;b&gt;&quot;."));
+  EXPECT_THAT(html, HasSubstr("<b>&lt; 1 %</b>"));
+  // Text from a person is no template either.
+  EXPECT_THAT(html, HasSubstr("<li>{{title}} &lt;i&gt;</li>"));
+}
+
+TEST_F(ReportOf, CoverageOfAnotherShapeIsNamed) {
+  WriteFileAtomically(folder_ / "coverage.json", std::string(R"({"faces": [{"area": "large"}]})"));
+  try {
+    MakeReport(folder_);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("coverage.json: is not as texturing writes it: "));
+  }
 }
 
 TEST_F(ReportOf, DamagedCoverageIsNamed) {

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# groundglass_embed(out.cc HEADER report/report_page.h
+#                   FILES kReportTemplate report.mustache kReportStyle report.css)
+# Makes a source in the build folder that holds files of this folder as strings, so that the program
+# need not find them when it runs. HEADER declares them: extern const char kReportTemplate[];
+function(groundglass_embed source)
+  cmake_parse_arguments(EMBED "" "HEADER" "FILES" ${ARGN})
+  set(names_and_files ${EMBED_FILES})
+  set(files)
+  while(names_and_files)
+    list(POP_FRONT names_and_files name file)
+    list(APPEND files ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  endwhile()
+  set(script ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/EmbedFilesScript.cmake)
+  add_custom_command(
+    OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${source}
+    COMMAND ${CMAKE_COMMAND} -D OUT=${CMAKE_CURRENT_BINARY_DIR}/${source}
+            -D FOLDER=${CMAKE_CURRENT_SOURCE_DIR} -D HEADER=${EMBED_HEADER}
+            -D "FILES=${EMBED_FILES}" -P ${script}
+    DEPENDS ${files} ${script}
+    VERBATIM)
+endfunction()

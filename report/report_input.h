@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "report/report.h"
+#include "scene/registration.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+
+// What a report is made of: an output folder as read, and the scene if there is one.
+struct ReportInput {
+  std::filesystem::path folder;
+  const Scene* scene = nullptr;
+  ReportOptions options;  // with a title, and pictures of the width to be used
+  std::string unit;       // of lengths, as it is written behind a number: " ft"
+  std::optional<std::vector<Registration>> registrations;
+  std::vector<ModelError> model_errors;
+  std::optional<nlohmann::json> coverage;
+  std::optional<nlohmann::json> manifest;
+};
+
+// Error if a file is damaged, or if there is neither registration.json nor coverage.json.
+ReportInput ReadReportInput(const std::filesystem::path& folder,
+                            const Scene* scene,
+                            const ReportOptions& options);
+
+}  // namespace groundglass

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/camera.h"
+#include "viewer/gl_functions.h"
+#include "viewer/renderer.h"
+#include "viewer/uploaded_model.h"
+
+#include <array>
+
+namespace groundglass {
+
+// The programs that draw a model's faces into the target that is bound.
+class FaceDrawing {
+ public:
+  // gl must outlive the object.
+  explicit FaceDrawing(const GlFunctions& gl);
+
+  // In colour, as options.mode says.
+  void DrawFaces(const UploadedModel& model,
+                 const Camera& pinhole,
+                 const RenderOptions& options) const;
+  // As numbers from 1.
+  void DrawLabels(const UploadedModel& model, const Camera& pinhole) const;
+
+ private:
+  const GlFunctions& gl_;
+  std::array<GlProgram, 5> face_programs_;  // by Colouring
+  GlProgram label_program_;
+};
+
+}  // namespace groundglass
