@@ -56,6 +56,16 @@ const KeyValue* FindPair(const std::vector<KeyValue>& pairs, std::string_view ke
   return found == pairs.end() ? nullptr : &*found;
 }
 
+// The number that follows a sign which stands by itself, as in `y - 74.9`; empty if none does.
+std::string_view NumberAfterSign(const std::vector<TextToken>& tokens, size_t sign) {
+  const std::string_view text = tokens[sign].text;
+  if ((text != "-" && text != "+") || sign + 1 >= tokens.size()) return {};
+  const std::string_view next = tokens[sign + 1].text;
+  return !next.empty() && next[0] != '-' && next[0] != '+' && ParseNumber(next)
+             ? next
+             : std::string_view();
+}
+
 void StoreValue(const KeyValue& pair, double value, ViewTag& tag) {
   if (const std::optional<TagKey> key = FindTagKey(pair.key.text)) {
     SetTagValue(tag, *key, value);
@@ -94,6 +104,14 @@ ViewReading ReadPairs(const std::string& text, const std::filesystem::path& name
       continue;
     }
     const KeyValue pair{key, tokens[++i]};
+    if (const std::string_view number = NumberAfterSign(tokens, i); !number.empty()) {
+      fail(pair.value.line,
+           key_name + ": a blank stands between the sign and the number; write " +
+               std::string(pair.value.text) + std::string(number));
+      reading.pairs.push_back(pair);
+      ++i;
+      continue;
+    }
     if (const KeyValue* first = FindPair(reading.pairs, key.text)) {
       fail(key.line,
            key_name + " is repeated; it stands on line " + std::to_string(first->key.line) +
