@@ -12,6 +12,7 @@
 #include <array>
 #include <fstream>
 #include <memory>
+#include <optional>
 
 namespace groundglass {
 namespace {
@@ -92,7 +93,10 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
   if (std::filesystem::is_empty(folder)) return lock;
   const std::filesystem::path file = folder / kFileName;
   const bool is_ours = std::filesystem::exists(file) && [&] {
-    const auto json = nlohmann::json::parse(ReadTextFile(file), nullptr, false);
+    const std::string text = ReadTextFile(file);
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    // One that is cut short or garbled further on still begins as we write it.
+    if (json.is_discarded()) return text.find("\"program\": \"" + std::string(kProgram)) < 100;
     return json.is_object() && json.value("program", "") == kProgram;
   }();
   if (!is_ours) {
@@ -109,10 +113,11 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
   return lock;
 }
 
-std::vector<StageRecord> ReadStages(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / kFileName;
-  if (!std::filesystem::exists(file)) return {};
-  const auto json = nlohmann::json::parse(ReadTextFile(file), nullptr, false);
+namespace {
+
+// Nothing if it cannot be understood.
+std::optional<std::vector<StageRecord>> ParseStages(const std::string& text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
   std::vector<StageRecord> stages;
   try {
     for (const auto& stage : json.at("stages")) {
@@ -124,10 +129,23 @@ std::vector<StageRecord> ReadStages(const std::filesystem::path& folder) {
                         stage.value("sha256_of_files", std::map<std::string, std::string>())});
     }
   } catch (const nlohmann::json::exception&) {
-    // Written by hand, or by an earlier version: nothing of it can be kept.
-    return {};
+    // Damaged, written by hand, or by an earlier version: nothing of it can be kept.
+    return std::nullopt;
   }
   return stages;
+}
+
+}  // namespace
+
+std::vector<StageRecord> ReadStages(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kFileName;
+  if (!std::filesystem::exists(file)) return {};
+  return ParseStages(ReadTextFile(file)).value_or(std::vector<StageRecord>());
+}
+
+bool IsManifestDamaged(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kFileName;
+  return std::filesystem::exists(file) && !ParseStages(ReadTextFile(file));
 }
 
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest) {

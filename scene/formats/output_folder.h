@@ -47,6 +47,9 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder);
 // The stages that the folder's manifest.json records; none if there is none.
 std::vector<StageRecord> ReadStages(const std::filesystem::path& folder);
 
+// It is there and its stages cannot be read, so that nobody knows what the files were made with.
+bool IsManifestDamaged(const std::filesystem::path& folder);
+
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest);
 
 }  // namespace groundglass

@@ -73,6 +73,19 @@ TEST(Manifest, KeepsTheStages) {
   EXPECT_FALSE(stages[1].is_complete);
   folder.Write("manifest.json", "{\"program\": \"groundglass\", \"stages\": 3}");
   EXPECT_TRUE(ReadStages(folder.path()).empty());
+  EXPECT_TRUE(IsManifestDamaged(folder.path()));
+}
+
+TEST(Manifest, OneThatIsCutShortIsStillOurs) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(IsManifestDamaged(folder.path()));
+  WriteManifest(folder.path(), {});
+  EXPECT_FALSE(IsManifestDamaged(folder.path()));
+  const std::string whole = FormatManifest({});
+  folder.Write("manifest.json", whole.substr(0, whole.size() - 5));
+  EXPECT_TRUE(IsManifestDamaged(folder.path()));
+  EXPECT_TRUE(ReadStages(folder.path()).empty());
+  PrepareOutputFolder(folder.path());
 }
 
 }  // namespace
