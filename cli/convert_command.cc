@@ -4,6 +4,7 @@
 #include "cli/json_output.h"
 #include "cli/model_arguments.h"
 #include "cli/option_range.h"
+#include "cli/warnings_last.h"
 #include "scene/formats/colmap_io.h"
 #include "scene/formats/convert.h"
 
@@ -45,13 +46,17 @@ int RunConvert(const ConvertArguments& arguments) {
   }
   const ConvertResult result = Convert(arguments);
   for (const std::string& warning : result.warnings) {
-    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
   if (arguments.common.json) {
     PrintJson(
         {{"output", arguments.output}, {"summary", result.summary}, {"warnings", result.warnings}});
   } else {
-    std::printf("%s\n", result.summary.c_str());
+    std::printf("%s%s\n",
+                result.summary.c_str(),
+                result.warnings.empty()
+                    ? ""
+                    : ("; " + CountWarnings(result.warnings.size()) + ", see above").c_str());
   }
   return kExitDone;
 }

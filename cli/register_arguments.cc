@@ -113,6 +113,7 @@ std::optional<Lens> ReadLensArgument(const RegisterArguments& arguments) {
 }
 
 Scene ReadSceneForCommand(const RegisterArguments& arguments,
+                          const CommonOptions& common,
                           const std::vector<std::string>& not_needed) {
   SceneOptions options;
   options.model_file = arguments.model_file;
@@ -128,6 +129,10 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
   if (!arguments.views_folder) {
     for (const Advice& advice : FindOddities(scene, options.model)) {
       scene.warnings.push_back(FormatAdvice(advice));
+      // Nothing will fit before it is mended, and the work is long: whoever sees it can stop.
+      if (advice.severity == Advice::Severity::kScene && !common.dry_run) {
+        PrintWarnings({scene.warnings.back()});
+      }
     }
   }
   RequireSoundPoses(scene);

@@ -34,10 +34,12 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments);
 RegisterOptions ReadRegisterOptions(const RegisterArguments& arguments);
 std::optional<Lens> ReadLensArgument(const RegisterArguments& arguments);
 
-// Reads the scene, what is odd about it among its warnings (they are told last: WarningsLast), and
-// leaves the photographs that are asked for. Names that it does not have are an Error. not_needed:
-// photographs whose faults do not matter.
+// Reads the scene, what is odd about it among its warnings (they are told last: WarningsLast; what
+// lets nothing fit is told at once too, but in a dry run), and leaves the photographs that are
+// asked for. Names that it does not have are an Error. not_needed: photographs whose faults do not
+// matter.
 Scene ReadSceneForCommand(const RegisterArguments& arguments,
+                          const CommonOptions& common,
                           const std::vector<std::string>& not_needed = {});
 
 // The table that a person reads: verdict, how far the picture moved, how its edges scatter about

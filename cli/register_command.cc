@@ -35,7 +35,7 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
     exit_status = RunWithThreads(arguments->common, [&] {
       const RegisterArguments& registering = arguments->registering;
       registering.options.Check();
-      const Scene scene = ReadSceneForCommand(registering);
+      const Scene scene = ReadSceneForCommand(registering, arguments->common);
       const WarningsLast warnings(scene.warnings, arguments->common.quiet);
       if (arguments->common.dry_run) {
         return TellDryRun(arguments->common,

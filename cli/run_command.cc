@@ -93,6 +93,36 @@ JobObserver MakeRunPrinter(const RunArguments& arguments, const Scene& scene) {
   return printer;
 }
 
+// What would be done, what is there already, and which photographs would be left out.
+int DryRun(const RunArguments& arguments, const Scene& scene) {
+  const fs::path& out = arguments.registering.out_folder;
+  CheckSelection(arguments.baking.selection, scene);
+  const std::vector<std::string> kept = FindKeptStages(scene, out, ReadMainJobOptions(arguments));
+  std::vector<std::string> unreadable;
+  for (const UnreadablePhotograph& photograph : scene.unreadable) {
+    unreadable.insert(unreadable.end(), photograph.reasons.begin(), photograph.reasons.end());
+  }
+  std::string words = "register " + std::to_string(scene.photographs.size()) +
+                      " photographs, bake " + std::to_string(scene.model.faces.size()) +
+                      " faces and write " + out.string();
+  std::string list;
+  for (const std::string& stage : kept) list += (list.empty() ? "" : ", ") + stage;
+  if (!kept.empty()) words += "\nwould keep what is there already of: " + list;
+  if (!scene.unreadable.empty()) {
+    words +=
+        "\nwould leave out " + std::to_string(scene.unreadable.size()) + " that cannot be read:";
+    for (const std::string& reason : unreadable) words += "\n  " + reason;
+  }
+  return TellDryRun(arguments.common,
+                    words,
+                    {{"out", out.string()},
+                     {"photographs", scene.photographs.size()},
+                     {"faces", scene.model.faces.size()},
+                     {"kept", kept},
+                     {"unreadable", unreadable},
+                     {"warnings", scene.warnings}});
+}
+
 int Run(const RunArguments& arguments) {
   const RegisterArguments& registering = arguments.registering;
   const BakeArguments& baking = arguments.baking;
@@ -101,18 +131,10 @@ int Run(const RunArguments& arguments) {
   registering.options.Check();
   baking.options.Check();
   baking.Options();  // wrong usage is told before anything is read
-  const Scene scene = ReadSceneForCommand(registering, baking.selection.exclude);
+  const Scene scene = ReadSceneForCommand(registering, common, baking.selection.exclude);
   const WarningsLast warnings(scene.warnings, common.quiet);
   if (common.dry_run) {
-    CheckSelection(baking.selection, scene);
-    return TellDryRun(common,
-                      "register " + std::to_string(scene.photographs.size()) +
-                          " photographs, bake " + std::to_string(scene.model.faces.size()) +
-                          " faces and write " + out.string(),
-                      {{"out", out.string()},
-                       {"photographs", scene.photographs.size()},
-                       {"faces", scene.model.faces.size()},
-                       {"warnings", scene.warnings}});
+    return DryRun(arguments, scene);
   }
   const MainJobResult result =
       RunMainJob(scene, out, ReadMainJobOptions(arguments), MakeRunPrinter(arguments, scene));

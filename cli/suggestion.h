@@ -10,10 +10,6 @@
 
 namespace groundglass {
 
-// The word among `known` that `word` was most likely meant to be: a few letters off, or cut short.
-std::optional<std::string> FindNearest(const std::string& word,
-                                       const std::vector<std::string>& known);
-
 // The command that was parsed last: "calibrate board" of its words.
 const CLI::App& InnermostCommand(const CLI::App& app);
 // "groundglass run: MESSAGE (groundglass run --help)".

@@ -50,6 +50,13 @@ std::string NoSuchFace(const PolygonModel& model, const std::string& word) {
     return "face " + std::to_string(*number) +
            " cannot be used, or lies twice, and is left out of the model";
   }
+  const size_t dash = word.find('-', 1);
+  const auto first = ParseInteger(word.substr(0, dash));
+  const auto last = dash == std::string::npos ? first : ParseInteger(word.substr(dash + 1));
+  if (first && last && *last < *first && *last >= 1) {
+    return "no face is called " + Quote(word) + ", and as a range it runs backwards: write " +
+           std::to_string(*last) + "-" + std::to_string(*first);
+  }
   return "no face is called " + Quote(word) + "; faces have numbers from 1 to " +
          std::to_string(HighestFaceNumber(model)) + ", and names";
 }

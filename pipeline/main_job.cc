@@ -35,6 +35,30 @@ struct StageKeys {
   std::string stills;
 };
 
+struct JobInputs {
+  StageInputs registration;
+  StageInputs texture;
+  StageInputs tiles;
+  StageInputs stills;
+};
+
+JobInputs ReadJobInputs(const Scene& scene, const MainJobOptions& options) {
+  const MainJobTexts texts = options.texts.value_or(MainJobTexts());
+  return {ReadRegistrationInputs(scene, texts.registering),
+          ReadTextureInputs(scene, texts.texture),
+          ReadStageOptions(texts.tiles),
+          ReadStageOptions(texts.stills)};
+}
+
+StageKeys MakeStageKeys(uint64_t seed, const JobInputs& inputs) {
+  StageKeys keys;
+  keys.registration = RegistrationKey(seed, inputs.registration);
+  keys.texture = StageKey(kTextureStage, keys.registration, inputs.texture);
+  keys.tiles = StageKey(kTilesStage, keys.texture, inputs.tiles);
+  keys.stills = StageKey(kStillsStage, keys.texture, inputs.stills);
+  return keys;
+}
+
 // Everything that goes wrong once the tags are corrected is told, and costs no more than its own
 // stage: what the others make is there.
 class Attempts {
@@ -95,19 +119,16 @@ MainJob BeginMainJob(const Scene& scene,
                      const fs::path& out,
                      const MainJobOptions& options,
                      const JobObserver& observer) {
-  const MainJobTexts texts = options.texts.value_or(MainJobTexts());
-  const StageInputs inputs = ReadRegistrationInputs(scene, texts.registering);
-  const StageInputs texture_inputs = ReadTextureInputs(scene, texts.texture);
-  const StageInputs tiles_inputs = ReadStageOptions(texts.tiles);
-  const StageInputs stills_inputs = ReadStageOptions(texts.stills);
-  StageKeys keys;
-  keys.registration = RegistrationKey(options.seed, inputs);
-  keys.texture = StageKey(kTextureStage, keys.registration, texture_inputs);
-  keys.tiles = StageKey(kTilesStage, keys.texture, tiles_inputs);
-  keys.stills = StageKey(kStillsStage, keys.texture, stills_inputs);
+  const JobInputs inputs = ReadJobInputs(scene, options);
+  StageKeys keys = MakeStageKeys(options.seed, inputs);
+  if (IsManifestDamaged(out)) {
+    observer.Tell("manifest.json is damaged, so that nobody knows what the files in " +
+                  out.string() + " were made with; everything is made again");
+  }
   OutputStages stages(
       out,
-      MakeManifest("run", options.seed, {inputs, texture_inputs, tiles_inputs, stills_inputs}));
+      MakeManifest(
+          "run", options.seed, {inputs.registration, inputs.texture, inputs.tiles, inputs.stills}));
   KeepSame(keys, options.texts.has_value(), stages);
   TellChanged(stages, {kRegisterStage, kOverlayStage, kTextureStage, kStillsStage}, observer);
   if (options.tiles.form != TilesToWrite::Form::kNone) {
@@ -121,7 +142,9 @@ std::optional<double> EnsureTexture(const std::vector<BakePhotograph>& photograp
   if (job.stages.IsComplete(kTextureStage, job.keys.texture)) {
     job.observer.Keep(kTextureStage);
     const std::optional<Coverage> coverage = ReadCoverage(job.out / "coverage.json");
-    return coverage ? std::optional(coverage->CoveredShare()) : std::nullopt;
+    if (!coverage) return std::nullopt;
+    if (job.observer.textured) job.observer.textured(coverage->CoveredShare());
+    return coverage->CoveredShare();
   }
   const BakeResult bake = BakeAndWrite(job.scene,
                                        photographs,
@@ -188,6 +211,24 @@ void MainJobOptions::Check() const {
     throw OptionError(path + "page_format", "must be png, tif or exr with 16 bits, not jpg");
   }
   CheckFromTo(num_stills, 0, 100, path + "num_stills");
+}
+
+std::vector<std::string> FindKeptStages(const Scene& scene,
+                                        const fs::path& out,
+                                        const MainJobOptions& options) {
+  std::vector<std::string> kept;
+  if (!options.texts || !fs::exists(out)) return kept;
+  const StageKeys keys = MakeStageKeys(options.seed, ReadJobInputs(scene, options));
+  const OutputStages stages(out, {});
+  const auto add = [&](const char* stage, const std::string& key) {
+    if (stages.IsComplete(stage, key)) kept.push_back(stage);
+  };
+  add(kRegisterStage, keys.registration);
+  add(kOverlayStage, keys.registration);
+  add(kTextureStage, keys.texture);
+  add(kTilesStage, keys.tiles);
+  add(kStillsStage, keys.stills);
+  return kept;
 }
 
 MainJobResult RunMainJob(const Scene& scene,

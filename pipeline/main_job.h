@@ -69,4 +69,10 @@ MainJobResult RunMainJob(const Scene& scene,
                          const MainJobOptions& options = {},
                          const JobObserver& observer = {});
 
+// The stages (kRegisterStage, ...) that an earlier run has left in `out` complete and that
+// RunMainJob would keep. Writes nothing. Throws Error for inputs that cannot be read.
+std::vector<std::string> FindKeptStages(const Scene& scene,
+                                        const std::filesystem::path& out,
+                                        const MainJobOptions& options);
+
 }  // namespace groundglass

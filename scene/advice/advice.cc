@@ -4,6 +4,7 @@
 
 #include "scene/advice/advice_judge.h"
 #include "scene/advice/advice_parts.h"
+#include "scene/advice/picture_fit.h"
 
 #include <array>
 #include <cstdio>
@@ -89,9 +90,17 @@ std::vector<Advice> FindOddities(const Scene& scene,
   const bool is_misread =
       misreading != Misreading::kNone || AdviseOnBacks(context, judge) ||
       (judge && (AdviseOnMirror(context, *judge) || AdviseOnDatum(context, *judge)));
-  if (!is_misread) AdviseOnTags(context);
+  std::vector<PictureFit> fits;
+  if (!is_misread) {
+    std::vector<TagDoubt> doubts = FindTagDoubts(context);
+    if (with_pictures) {
+      fits = FitPictures(context);
+      WeighTags(context, fits, doubts);
+    }
+    AdviseOnTags(context, doubts);
+  }
   AdviseOnFrames(context);
-  if (!is_misread && with_pictures) AdviseOnPictures(context);
+  if (!fits.empty()) AdviseOnPictures(context, fits);
   return found;
 }
 

@@ -22,10 +22,14 @@ bool Suits(double tag_aspect, double picture_aspect) {
   return ratio <= kOddAspect && ratio >= 1 / kOddAspect;
 }
 
+}  // namespace
+
 bool SuitsPicture(const Photograph& photograph) {
   return Suits(photograph.tag.aspect,
                static_cast<double>(photograph.size.width) / photograph.size.height);
 }
+
+namespace {
 
 // A photograph with the same view angle whose tag suits this one's picture: `a` is wrong then, and
 // `v` is not.

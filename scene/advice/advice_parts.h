@@ -4,6 +4,7 @@
 
 #include "scene/advice/advice_line.h"
 #include "scene/advice/standpoint.h"
+#include "scene/advice/tag_slips.h"
 #include "scene/formats/scene.h"
 
 #include <filesystem>
@@ -63,11 +64,18 @@ bool AdviseOnDatum(const AdviceContext& context, const PictureJudge& judge);
 void AdviseOnUnreadModel(const Scene& scene,
                          const ModelOptions& options,
                          std::vector<Advice>& found);
-// Each tag by itself.
-void AdviseOnTags(const AdviceContext& context);
+// A tag that cannot well be right by its own numbers and the other tags'.
+struct TagDoubt {
+  std::string wrong;             // for a person; empty: there is no doubt
+  std::string remedy;            // where no slip explains it
+  std::vector<MeantTag> meant;   // slips that explain it, the likelier ones first
+  bool is_only_unusual = false;  // the picture may clear it
+};
+// One for each photograph. None (empty list) if most tags have the same slip, which is told.
+std::vector<TagDoubt> FindTagDoubts(const AdviceContext& context);
+void AdviseOnTags(const AdviceContext& context, const std::vector<TagDoubt>& doubts);
 // Shape and turn of the pictures against their tags.
+bool SuitsPicture(const Photograph& photograph);
 void AdviseOnFrames(const AdviceContext& context);
-// What the pictures show: turned by 180 degrees, mirrored, the view angle of the other side.
-void AdviseOnPictures(const AdviceContext& context);
 
 }  // namespace groundglass

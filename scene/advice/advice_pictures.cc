@@ -2,9 +2,8 @@
 // Part of Groundglass.
 // What the pictures themselves tell: their edges lie on the model's only if they are the right way
 // up and round, and the view angle is the one across the frame.
-#include "scene/advice/advice_parts.h"
 #include "scene/advice/edge_fit.h"
-#include "scene/advice/tag_slips.h"
+#include "scene/advice/picture_fit.h"
 #include "scene/error.h"
 #include "scene/frames.h"
 
@@ -17,17 +16,6 @@
 
 namespace groundglass {
 namespace {
-
-// How each reading of one photograph fits its picture's edges.
-struct PictureFit {
-  double as_read = 0;
-  double upside_down = 0;
-  double mirrored = 0;
-  double vertical_angle = 0;      // v taken as the angle up and down the frame
-  double diagonal_angle = 0;      // ... as the angle from corner to corner
-  const TagSlip* slip = nullptr;  // that fits best, and how well
-  double with_slip = 0;
-};
 
 struct Alternative {
   double PictureFit::*score;
@@ -49,10 +37,6 @@ constexpr std::array<Alternative, 4> kAlternatives = {{
      "v is the horizontal one: write 2 atan(a / sqrt(1 + a^2) tan(v / 2)) in its place"},
 }};
 
-// Scores of chance reach 4.5; those of photographs with their right tags lie between 3.2 and 7
-// (bundled and outside scenes). A single picture is believed only far above chance.
-constexpr double kClearScore = 5;
-constexpr double kClearLead = 1.5;
 constexpr double kMeanLead = 1;
 constexpr double kMostPictures = 0.7;
 
@@ -93,43 +77,25 @@ PictureFit FitPicture(const AdviceContext& context,
                       const std::vector<ModelEdge>& edges,
                       const Photograph& photograph) {
   const Image8 grey = ReadGrey8(photograph.image_file);
-  const auto score = [&](const EdgeFit& fit, const ViewTag& tag) {
+  const auto score = [&](const EdgeFit& fit, const ViewTag& tag, double nearness = 1) {
     return fit.Score(context.scene.model,
                      edges,
                      context.visibility,
-                     CameraFromTag(tag, photograph.size.width, photograph.size.height));
+                     CameraFromTag(tag, photograph.size.width, photograph.size.height),
+                     nearness);
   };
   const ViewTag& tag = photograph.tag;
   const EdgeFit upright(grey);
   PictureFit result;
   result.as_read = score(upright, tag);
   if (result.as_read == 0) return result;
+  result.nearby = score(upright, tag, kTagReach);
   result.upside_down = score(EdgeFit(UpsideDown(grey)), tag);
   result.mirrored = score(EdgeFit(MirroredPicture(grey)), tag);
   result.vertical_angle = score(upright, WithTangentTimes(tag, tag.aspect));
   result.diagonal_angle =
       score(upright, WithTangentTimes(tag, tag.aspect / std::hypot(1.0, tag.aspect)));
-  // A tag that fits its picture well has no slip.
-  for (const TagSlip& slip : kTagSlips) {
-    if (result.as_read > kClearScore - kClearLead) break;
-    ViewTag corrected = tag;
-    slip.correct(corrected);
-    if (corrected == tag || FindTagFault(corrected)) continue;
-    const double fit = score(upright, corrected);
-    if (fit <= result.with_slip) continue;
-    result.slip = &slip;
-    result.with_slip = fit;
-  }
   return result;
-}
-
-bool HasClearSlip(const PictureFit& fit) {
-  if (!fit.slip || fit.with_slip < kClearScore || fit.with_slip < fit.as_read + kClearLead) {
-    return false;
-  }
-  return std::all_of(kAlternatives.begin(), kAlternatives.end(), [&](const auto& alternative) {
-    return fit.*alternative.score < fit.with_slip - kClearLead / 2;
-  });
 }
 
 // True if the tag's own numbers have told what is wrong with it.
@@ -141,7 +107,7 @@ bool IsTold(const AdviceContext& context, const std::string& file) {
 
 }  // namespace
 
-void AdviseOnPictures(const AdviceContext& context) {
+std::vector<PictureFit> FitPictures(const AdviceContext& context) {
   const std::vector<Photograph>& photographs = context.scene.photographs;
   const std::vector<ModelEdge> edges = FindModelEdges(context.scene.model);
   std::vector<PictureFit> fits(photographs.size());
@@ -152,6 +118,23 @@ void AdviseOnPictures(const AdviceContext& context) {
       // A picture that cannot be read is told by those who read it for its own sake.
     }
   });
+  return fits;
+}
+
+bool HasClearAlternative(const PictureFit& fit) {
+  return std::any_of(kAlternatives.begin(), kAlternatives.end(), [&](const auto& alternative) {
+    return IsClearlyMeant(fit, alternative);
+  });
+}
+
+bool HaveCommonAlternative(const std::vector<PictureFit>& fits) {
+  return std::any_of(kAlternatives.begin(), kAlternatives.end(), [&](const auto& alternative) {
+    return IsMeantByMost(fits, alternative);
+  });
+}
+
+void AdviseOnPictures(const AdviceContext& context, const std::vector<PictureFit>& fits) {
+  const std::vector<Photograph>& photographs = context.scene.photographs;
   // What most photographs say is said of all of them, once.
   for (const Alternative& alternative : kAlternatives) {
     if (!IsMeantByMost(fits, alternative)) continue;
@@ -163,19 +146,10 @@ void AdviseOnPictures(const AdviceContext& context) {
     return;
   }
   for (size_t i = 0; i < fits.size(); ++i) {
-    const std::string tag_file = TagPlace(context.scene, photographs[i]);
-    if (HasClearSlip(fits[i]) && !IsTold(context, tag_file)) {
-      context.Add(Advice::Severity::kDetail,
-                  tag_file,
-                  "the picture does not show what its tag looks at",
-                  std::string("with ") + fits[i].slip->name + " it would");
-    }
+    // A wrong tag makes a right picture look wrong.
+    if (IsTold(context, TagPlace(context.scene, photographs[i]))) continue;
     for (const Alternative& alternative : kAlternatives) {
-      // A wrong tag makes a right picture look wrong.
-      if (HasClearSlip(fits[i]) || IsTold(context, tag_file) ||
-          !IsClearlyMeant(fits[i], alternative)) {
-        continue;
-      }
+      if (!IsClearlyMeant(fits[i], alternative)) continue;
       context.Add(Advice::Severity::kDetail,
                   photographs[i].image_file.string(),
                   "its edges suit the model better if " + std::string(alternative.message),

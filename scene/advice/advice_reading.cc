@@ -21,9 +21,12 @@ namespace groundglass {
 namespace {
 
 double Score(const Suitability& suits, int num_changes) {
-  return suits.plausible_share + 0.5 * suits.front_share - suits.median_lookat_error -
-         0.03 * num_changes;
+  return suits.votes + 0.5 * suits.front_share - 0.03 * num_changes;
 }
+
+// Of the tags, so many must suit a reading: of a handful all, of more most, since some are
+// mistyped.
+double FewestPlausible(size_t num_tags) { return num_tags < 5 ? 0.7 : 0.6; }
 
 Suitability Try(const AdviceContext& context,
                 const std::vector<const Photograph*>& photographs,
@@ -59,42 +62,91 @@ double FitOverAll(const AdviceContext& context, const PictureJudge& judge, const
   return std::reduce(fits.begin(), fits.end()) / static_cast<double>(fits.size());
 }
 
-// The reading that suits the tags best, far better than the one that was read. Where others suit
-// them about as well, the pictures choose.
-std::optional<Reading> FindBest(const AdviceContext& context,
-                                const std::vector<const Photograph*>& photographs,
-                                const Suitability& as_read,
-                                const std::vector<Reading>& readings,
-                                const PictureJudge* judge) {
+struct Choice {
+  Reading best;
+  // Of another size, and as likely: neither tags nor pictures tell which.
+  std::optional<Reading> rival;
+};
+
+// The readings that suit most tags, far more than the one that was read; the best first, none that
+// is much worse.
+std::vector<std::pair<double, const Reading*>> FindSuitable(
+    const AdviceContext& context,
+    const std::vector<const Photograph*>& photographs,
+    const Suitability& as_read,
+    const std::vector<Reading>& readings) {
   constexpr double kAboutAsWell = 0.3;
-  constexpr size_t kMostRivals = 5;
-  // Of the mean fit: the edges of a wrong reading come near by chance.
-  constexpr double kClearMeanLead = 0.7;
+  constexpr double kLead = 0.35;
   std::vector<std::pair<double, const Reading*>> suitable;
   for (const Reading& reading : readings) {
     const Suitability suits = Try(context, photographs, reading);
-    const bool is_better = suits.plausible_share >= as_read.plausible_share + 0.35 ||
+    const bool is_better = suits.plausible_share >= as_read.plausible_share + kLead ||
+                           suits.votes >= as_read.votes + kLead ||
                            IsMirrored(as_read, suits, reading);
-    if (suits.plausible_share < 0.7 || suits.median_lookat_error > 0.12 || !is_better) continue;
-    suitable.emplace_back(-Score(suits, reading.num_changes), &reading);
+    if (suits.plausible_share < FewestPlausible(photographs.size()) ||
+        suits.median_lookat_error > 0.12 || !is_better) {
+      continue;
+    }
+    suitable.emplace_back(Score(suits, reading.num_changes), &reading);
   }
-  if (suitable.empty()) return std::nullopt;
   std::stable_sort(suitable.begin(), suitable.end(), [](const auto& a, const auto& b) {
-    return a.first < b.first;
+    return a.first > b.first;
   });
-  const Reading* best = suitable.front().second;
-  std::erase_if(suitable, [limit = suitable.front().first + kAboutAsWell](const auto& rival) {
-    return rival.first > limit;
-  });
-  if (!judge || suitable.size() < 2) return *best;
-  double most = FitOverAll(context, *judge, *best) + kClearMeanLead;
-  for (size_t i = 1; i < std::min(suitable.size(), kMostRivals); ++i) {
-    const double fit = FitOverAll(context, *judge, *suitable[i].second);
-    if (fit <= most) continue;
-    most = fit;
-    best = suitable[i].second;
+  std::erase_if(suitable,
+                [&, limit = suitable.empty() ? 0 : suitable.front().first - kAboutAsWell](
+                    const auto& rival) { return rival.first < limit; });
+  return suitable;
+}
+
+bool HasOtherSize(const Reading& a, const Reading& b) {
+  return std::abs(a.model.linear.determinant() / b.model.linear.determinant()) > 1 + 1e-6 ||
+         std::abs(b.model.linear.determinant() / a.model.linear.determinant()) > 1 + 1e-6;
+}
+
+// Where several readings suit the tags about as well, the pictures choose.
+std::optional<Choice> FindBest(const AdviceContext& context,
+                               const std::vector<const Photograph*>& photographs,
+                               const Suitability& as_read,
+                               const std::vector<Reading>& readings,
+                               const PictureJudge* judge) {
+  constexpr size_t kMostRivals = 5;
+  // Of the mean fit: the edges of a wrong reading come near by chance.
+  constexpr double kClearMeanLead = 0.7;
+  // Of the score of a reading: half a vote and less of six is chance.
+  constexpr double kClearScoreLead = 0.1;
+  const auto suitable = FindSuitable(context, photographs, as_read, readings);
+  if (suitable.empty()) return std::nullopt;
+  const size_t count = std::min(suitable.size(), kMostRivals);
+  std::vector<double> fits(count, 0);
+  size_t best = 0;
+  for (size_t i = 0; judge && count > 1 && i < count; ++i) {
+    fits[i] = FitOverAll(context, *judge, *suitable[i].second);
+    if (fits[i] > (best == 0 ? fits[0] + kClearMeanLead : fits[best])) best = i;
   }
-  return *best;
+  Choice choice{*suitable[best].second, std::nullopt};
+  for (size_t i = 0; i < count; ++i) {
+    if (i == best || !HasOtherSize(*suitable[i].second, choice.best) ||
+        suitable[i].first < suitable[best].first - kClearScoreLead ||
+        fits[i] < fits[best] - kClearMeanLead) {
+      continue;
+    }
+    choice.rival = *suitable[i].second;
+    break;
+  }
+  return choice;
+}
+
+void Tell(const AdviceContext& context, const Choice& choice) {
+  const Reading& best = choice.best;
+  std::string message = best.message + ": only so do the cameras look at it";
+  std::string remedy = best.remedy;
+  if (choice.rival) {
+    message = "either " + best.message + ", or " + choice.rival->message +
+              ": most cameras look at it with either";
+    remedy = "measure a length to tell which; for the first " + best.remedy + "; for the second " +
+             choice.rival->remedy;
+  }
+  context.Add(Advice::Severity::kScene, context.scene.model_file.string(), message, remedy);
 }
 
 void AdviseOnWhatIsUnknown(const AdviceContext& context, size_t num_implausible) {
@@ -126,7 +178,7 @@ Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* jud
   if (context.scene.photographs.size() < kFewestTags) return Misreading::kNone;
   const std::vector<const Photograph*> photographs = SomePhotographs(context.scene);
   const Suitability as_read = Try(context, photographs, {});
-  const bool is_suspicious = as_read.implausible_share >= 0.5 || as_read.plausible_share <= 0.4 ||
+  const bool is_suspicious = as_read.implausible_share >= 0.5 || as_read.plausible_share < 0.7 ||
                              as_read.median_lookat_error > 0.2 || as_read.front_share < 0.35;
   if (!is_suspicious) return Misreading::kNone;
 
@@ -137,24 +189,25 @@ Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* jud
   for (const Reading& reading : OtherTags()) readings.push_back(reading);
   for (const Reading& reading : OtherDatums(context, photographs)) readings.push_back(reading);
   for (const Reading& reading : LeftHandedAxes(context)) readings.push_back(reading);
-  std::optional<Reading> best = FindBest(context, photographs, as_read, readings, judge);
+  std::optional<Choice> choice = FindBest(context, photographs, as_read, readings, judge);
   // Another size suits tags by chance where the model is one wall: the pictures know better.
-  if (best && judge && IsScaled(best->model) &&
+  if (choice && judge && IsScaled(choice->best.model) &&
       PictureJudge::IsClearlyBetter(
           judge->Fit(context.scene.model),
-          judge->Fit(ReadOtherwise(context.scene.model, best->model), best->retag))) {
+          judge->Fit(ReadOtherwise(context.scene.model, choice->best.model), choice->best.retag))) {
     return Misreading::kNone;
   }
   // Two changes at once would fit a handful of tags by chance.
-  if (!best && photographs.size() > 3) {
+  if (!choice && photographs.size() > 3) {
     readings.clear();
     for (const Reading& one : axes) {
       for (const Reading& other : OtherUnits(context, " " + one.option)) {
         readings.push_back(Combined(one, other));
       }
     }
-    best = FindBest(context, photographs, as_read, readings, nullptr);
+    choice = FindBest(context, photographs, as_read, readings, nullptr);
   }
+  const Reading* best = choice ? &choice->best : nullptr;
   // Sizes and heights that suit a few tags by chance are many: the pictures know the heights
   // better.
   const bool is_in_place = best && best->model.linear.isIdentity(1e-9);
@@ -163,10 +216,7 @@ Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* jud
     return Misreading::kOther;
   }
   if (best) {
-    context.Add(Advice::Severity::kScene,
-                context.scene.model_file.string(),
-                best->message + ": only so do the cameras look at it",
-                best->remedy);
+    Tell(context, *choice);
     return IsScaled(best->model) ? Misreading::kOfUnit : Misreading::kOther;
   }
   if (as_read.implausible_share < 0.6) return Misreading::kNone;

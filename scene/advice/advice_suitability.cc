@@ -10,7 +10,9 @@ namespace groundglass {
 namespace {
 
 Suitability Summarise(const std::vector<Standpoint>& standpoints) {
-  Suitability summary{0, 0, 1, 0};
+  // As a share of the distance looked at: hand-written points are met within a fifth of it.
+  constexpr double kMet = 0.12;
+  Suitability summary{0, 0, 1, 0, 0};
   const double count = static_cast<double>(standpoints.size());
   std::vector<double> errors;
   double model_share = 0;
@@ -18,6 +20,9 @@ Suitability Summarise(const std::vector<Standpoint>& standpoints) {
   for (const Standpoint& standpoint : standpoints) {
     summary.implausible_share += IsImplausible(standpoint) ? 1 / count : 0;
     summary.plausible_share += IsPlausible(standpoint) ? 1 / count : 0;
+    if (IsPlausible(standpoint)) {
+      summary.votes += std::max(0.0, 1 - standpoint.lookat_error / kMet) / count;
+    }
     errors.push_back(standpoint.lookat_error);
     model_share += standpoint.model_share;
     front_share += standpoint.model_share * standpoint.front_share;

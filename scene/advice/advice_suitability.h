@@ -18,6 +18,10 @@ struct Suitability {
   double plausible_share = 0;
   double median_lookat_error = 1;
   double front_share = 0;
+  // Of the tags that are plausible, how nearly each look-at point is met (1: exactly), summed up
+  // and divided by the number of all: a vote for each photograph, which a mistyped tag has lost,
+  // without a say against the others'.
+  double votes = 0;
 };
 Suitability FindSuitability(const AdviceContext& context,
                             const std::vector<const Photograph*>& photographs,

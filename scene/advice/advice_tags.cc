@@ -2,11 +2,11 @@
 // Part of Groundglass.
 // Each tag by itself: where no camera can have stood, and the slip of the pen that explains it.
 #include "scene/advice/advice_parts.h"
-#include "scene/advice/tag_slips.h"
 #include "scene/text.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -27,22 +27,20 @@ bool IsLookatWrong(const Standpoint& standpoint) {
   return standpoint.looks_at_back || standpoint.lookat_gap > 0.15 || IsImplausible(standpoint);
 }
 
-// The slip that explains a tag which cannot be right; null if none does. A single number may make
-// a wrong tag look right by chance, so the corrected one must meet the model where it says.
-const TagSlip* FindSlip(const AdviceContext& context,
-                        const Photograph& photograph,
-                        const Standpoint& as_read) {
-  if (!IsLookatWrong(as_read)) return nullptr;
-  for (const TagSlip& slip : kTagSlips) {
-    ViewTag tag = photograph.tag;
-    slip.correct(tag);
-    if (tag == photograph.tag || FindTagFault(tag)) continue;
-    const Standpoint standpoint = Locate(context, photograph, tag);
+// The slips that explain a tag which cannot be right. A single number may make a wrong tag look
+// right by chance, so the corrected one must meet the model where it says.
+std::vector<MeantTag> FindSlips(const AdviceContext& context,
+                                const Photograph& photograph,
+                                const Standpoint& as_read) {
+  std::vector<MeantTag> explain;
+  if (!IsLookatWrong(as_read)) return explain;
+  for (const MeantTag& meant : FindMeantTags(photograph.tag)) {
+    const Standpoint standpoint = Locate(context, photograph, meant.tag);
     if (IsPlausible(standpoint) && standpoint.front_share > 0.7 && standpoint.lookat_error < 0.02) {
-      return &slip;
+      explain.push_back(meant);
     }
   }
-  return nullptr;
+  return explain;
 }
 
 // A height with a minus before it that suits the others' without: the camera stands just below the
@@ -93,48 +91,140 @@ std::string FindWrong(const AdviceContext& context,
                                        : "nothing of the model lies in this frame";
 }
 
+// The slips that bring one number to what the other tags have; `is_usual` judges it.
+std::vector<MeantTag> FindSlipsOf(TagKey key,
+                                  const ViewTag& tag,
+                                  const std::function<bool(double)>& is_usual) {
+  std::vector<MeantTag> explain;
+  for (const MeantTag& meant : FindMeantTags(tag)) {
+    const auto num_changed = std::count(meant.is_changed.begin(), meant.is_changed.end(), true);
+    if (num_changed != 1 || !meant.is_changed[static_cast<size_t>(key)]) continue;
+    if (is_usual(GetTagValue(meant.tag, key))) explain.push_back(meant);
+  }
+  return explain;
+}
+
+// Most of the other tags' numbers, if they are within `alike` times of each other; else 0. The
+// numbers: above 0.
+double FindCommon(std::vector<double> others, double alike, double most) {
+  constexpr size_t kFewest = 4;
+  if (others.size() < kFewest) return 0;
+  std::nth_element(others.begin(), others.begin() + others.size() / 2, others.end());
+  const double middle = others[others.size() / 2];
+  const auto num_alike = std::count_if(others.begin(), others.end(), [&](double other) {
+    return other <= alike * middle && other * alike >= middle;
+  });
+  return static_cast<double>(num_alike) >= most * static_cast<double>(others.size()) ? middle : 0;
+}
+
+// A camera that stands far lower than the others, who stand all alike, if a slip explains it.
+// Higher ones stand at windows and on roofs.
+TagDoubt DoubtHeight(const AdviceContext& context, size_t index) {
+  constexpr double kAlike = 1.4;
+  constexpr double kMost = 0.6;
+  constexpr double kMuchLower = 0.4;
+  const double foot = context.bounds.min.z();
+  const auto height_of = [&](size_t i) {
+    return context.standpoints[i].position_in_site.z() - foot;
+  };
+  std::vector<double> others;
+  for (size_t i = 0; i < context.standpoints.size(); ++i) {
+    if (i != index) others.push_back(height_of(i));
+  }
+  const double common = FindCommon(others, kAlike, kMost);
+  if (!(common > 0) || height_of(index) < 0 || height_of(index) > kMuchLower * common) return {};
+  TagDoubt doubt;
+  doubt.is_only_unusual = true;
+  doubt.meant = FindSlipsOf(TagKey::kZ, context.scene.photographs[index].tag, [&](double z) {
+    return z - foot <= kAlike * common && (z - foot) * kAlike >= common;
+  });
+  if (doubt.meant.empty()) return {};
+  const LengthUnit unit = context.scene.model.unit;
+  doubt.wrong = "the camera stands " + FormatLength(height_of(index), unit) +
+                " above the model's foot, most others about " + FormatLength(common, unit);
+  return doubt;
+}
+
+// A view angle unlike that of nearly all others, if a slip brings it there.
+TagDoubt DoubtAngle(const AdviceContext& context, size_t index) {
+  constexpr double kSame = 1.001;
+  constexpr double kMost = 0.8;
+  const std::vector<Photograph>& photographs = context.scene.photographs;
+  const ViewTag& tag = photographs[index].tag;
+  std::vector<double> others;
+  for (size_t i = 0; i < photographs.size(); ++i) {
+    if (i != index) others.push_back(photographs[i].tag.view_angle_deg);
+  }
+  const double common = FindCommon(others, kSame, kMost);
+  const auto is_common = [&](double v) { return v <= kSame * common && v * kSame >= common; };
+  if (!(common > 0) || is_common(tag.view_angle_deg)) return {};
+  TagDoubt doubt;
+  doubt.is_only_unusual = true;
+  doubt.meant = FindSlipsOf(TagKey::kV, tag, is_common);
+  if (doubt.meant.empty()) return {};
+  doubt.wrong = "v is " + FormatNumber(tag.view_angle_deg) + ", and " + FormatNumber(common) +
+                " in the other tags";
+  return doubt;
+}
+
+TagDoubt DoubtTag(const AdviceContext& context, size_t index) {
+  const Photograph& photograph = context.scene.photographs[index];
+  TagDoubt doubt;
+  doubt.wrong = FindWrong(context, photograph, context.standpoints[index]);
+  doubt.meant = FindSlips(context, photograph, context.standpoints[index]);
+  doubt.remedy = "look at x, y, z and i, j, k (x east, y south, z up, in " +
+                 UnitName(context.scene.model.unit) + "), and whether it is this photograph's tag";
+  if (doubt.wrong.empty() && !doubt.meant.empty()) {
+    doubt.wrong = "the camera does not see the point that it is said to look at";
+  }
+  if (doubt.wrong.empty() && HasMinusBeforeHeight(context, index)) {
+    doubt.wrong = "the camera stands below the ground, at z " +
+                  FormatNumber(context.standpoints[index].position_in_site.z());
+    doubt.remedy = "without the minus it would stand as high as the others";
+  }
+  if (doubt.wrong.empty()) doubt = DoubtHeight(context, index);
+  if (doubt.wrong.empty()) doubt = DoubtAngle(context, index);
+  return doubt;
+}
+
 }  // namespace
 
-void AdviseOnTags(const AdviceContext& context) {
-  const std::vector<Photograph>& photographs = context.scene.photographs;
-  std::vector<const TagSlip*> slips;
-  for (size_t i = 0; i < photographs.size(); ++i) {
-    slips.push_back(FindSlip(context, photographs[i], context.standpoints[i]));
-  }
+std::vector<TagDoubt> FindTagDoubts(const AdviceContext& context) {
+  const size_t total = context.scene.photographs.size();
+  std::vector<TagDoubt> doubts;
+  for (size_t i = 0; i < total; ++i) doubts.push_back(DoubtTag(context, i));
   // The same slip in most tags is how all of them were written.
   for (const TagSlip& slip : kTagSlips) {
-    const size_t count = static_cast<size_t>(std::count(slips.begin(), slips.end(), &slip));
-    if (count < 3 || 2 * count < photographs.size()) continue;
+    const size_t count =
+        static_cast<size_t>(std::count_if(doubts.begin(), doubts.end(), [&](const auto& doubt) {
+          return !doubt.meant.empty() && doubt.meant.front().slip == slip.name;
+        }));
+    if (count < 3 || 2 * count < total) continue;
     context.Add(Advice::Severity::kScene,
                 (context.scene.folder / "views").string(),
-                std::to_string(count) + " of " + std::to_string(photographs.size()) +
+                std::to_string(count) + " of " + std::to_string(total) +
                     " tags do not look at the model where they say, and would with " + slip.name,
                 "in view files x counts east, y south and z up: change all of them");
-    return;
+    return {};
   }
-  for (size_t i = 0; i < photographs.size(); ++i) {
-    const std::string file = TagPlace(context.scene, photographs[i]);
-    const std::string wrong = FindWrong(context, photographs[i], context.standpoints[i]);
-    if (slips[i]) {
-      context.Add(
-          Advice::Severity::kDetail,
-          file,
-          wrong.empty() ? "the camera does not see the point that it is said to look at" : wrong,
-          std::string("with ") + slips[i]->name + " it would look at the model");
-    } else if (!wrong.empty()) {
-      context.Add(Advice::Severity::kDetail,
-                  file,
-                  wrong,
-                  "look at x, y, z and i, j, k (x east, y south, z up, in " +
-                      UnitName(context.scene.model.unit) +
-                      "), and whether it is this photograph's tag");
-    } else if (HasMinusBeforeHeight(context, i)) {
-      context.Add(Advice::Severity::kDetail,
-                  file,
-                  "the camera stands below the ground, at z " +
-                      FormatNumber(context.standpoints[i].position_in_site.z()),
-                  "without the minus it would stand as high as the others");
+  return doubts;
+}
+
+void AdviseOnTags(const AdviceContext& context, const std::vector<TagDoubt>& doubts) {
+  constexpr size_t kMostNamed = 2;
+  for (size_t i = 0; i < doubts.size(); ++i) {
+    const TagDoubt& doubt = doubts[i];
+    if (doubt.wrong.empty()) continue;
+    std::string remedy = doubt.remedy;
+    for (size_t k = 0; k < std::min(kMostNamed, doubt.meant.size()); ++k) {
+      const std::string& slip = doubt.meant[k].slip;
+      remedy =
+          k == 0 ? "with " + slip + " it would look at the model" : remedy + ", or with " + slip;
     }
+    context.Add(Advice::Severity::kDetail,
+                TagPlace(context.scene, context.scene.photographs[i]),
+                doubt.wrong,
+                remedy);
   }
 }
 

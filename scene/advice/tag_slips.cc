@@ -2,6 +2,10 @@
 // Part of Groundglass.
 #include "scene/advice/tag_slips.h"
 
+#include "scene/text.h"
+
+#include <cctype>
+#include <optional>
 #include <utility>
 
 namespace groundglass {
@@ -19,7 +23,7 @@ void TenthOf(ViewTag& tag) {
 
 }  // namespace
 
-const std::array<TagSlip, 25> kTagSlips = {{
+const std::array<TagSlip, 27> kTagSlips = {{
     {"x and y exchanged, and i and j",
      [](ViewTag& tag) {
        std::swap(tag.position_in_site.x(), tag.position_in_site.y());
@@ -59,6 +63,91 @@ const std::array<TagSlip, 25> kTagSlips = {{
     {"ten times i", TimesTen<TagKey::kI>},
     {"ten times j", TimesTen<TagKey::kJ>},
     {"ten times k", TimesTen<TagKey::kK>},
+    {"a tenth of v", TenthOf<TagKey::kV>},
+    {"ten times v", TimesTen<TagKey::kV>},
 }};
+
+namespace {
+
+// The numbers that are written down for each photograph; the picture itself tells a.
+constexpr std::array<TagKey, 7> kWrittenKeys = {
+    TagKey::kX, TagKey::kY, TagKey::kZ, TagKey::kI, TagKey::kJ, TagKey::kK, TagKey::kV};
+
+bool IsWrittenDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+void AddIfValid(const std::string& slip,
+                const ViewTag& meant,
+                const ViewTag& tag,
+                std::vector<MeantTag>& found) {
+  if (meant == tag || FindTagFault(meant)) return;
+  MeantTag& added = found.emplace_back(MeantTag{slip, meant, {}});
+  for (int key = 0; key < kNumTagKeys; ++key) {
+    added.is_changed[static_cast<size_t>(key)] =
+        GetTagValue(meant, static_cast<TagKey>(key)) != GetTagValue(tag, static_cast<TagKey>(key));
+  }
+}
+
+// The tag with this number as it is spelled here.
+void AddSpelled(const std::string& digits,
+                const char* slip,
+                TagKey key,
+                const ViewTag& tag,
+                std::vector<MeantTag>& found) {
+  const std::optional<double> value = ParseNumber(digits);
+  if (!value) return;
+  ViewTag meant = tag;
+  SetTagValue(meant, key, *value);
+  const std::string name(kTagKeyNames[static_cast<size_t>(key)]);
+  AddIfValid(name + " " + FormatNumber(*value) + " (" + slip + ")", meant, tag, found);
+}
+
+}  // namespace
+
+std::vector<MeantTag> FindMeantTags(const ViewTag& tag) {
+  std::vector<MeantTag> found;
+  for (const TagSlip& slip : kTagSlips) {
+    ViewTag meant = tag;
+    slip.correct(meant);
+    AddIfValid(slip.name, meant, tag, found);
+  }
+  for (const TagKey key : kWrittenKeys) {
+    const std::string digits = FormatNumber(GetTagValue(tag, key));
+    for (size_t i = 0; i < digits.size(); ++i) {
+      if (!IsWrittenDigit(digits[i])) continue;
+      const size_t next = i + 1 < digits.size() && digits[i + 1] == '.' ? i + 2 : i + 1;
+      if (next < digits.size() && IsWrittenDigit(digits[next])) {
+        std::string meant = digits;
+        std::swap(meant[i], meant[next]);
+        AddSpelled(meant, "two digits exchanged", key, tag, found);
+      }
+    }
+  }
+  for (const TagKey key : kWrittenKeys) {
+    const std::string digits = FormatNumber(GetTagValue(tag, key));
+    for (size_t i = 0; i < digits.size(); ++i) {
+      std::string meant = digits;
+      if (IsWrittenDigit(digits[i])) AddSpelled(meant.erase(i, 1), "a digit less", key, tag, found);
+    }
+  }
+  return found;
+}
+
+std::vector<MeantTag> FindMeantTagsByDigits(const ViewTag& tag) {
+  std::vector<MeantTag> found;
+  for (const TagKey key : kWrittenKeys) {
+    const std::string digits = FormatNumber(GetTagValue(tag, key));
+    for (size_t i = digits[0] == '-' ? 1 : 0; i <= digits.size(); ++i) {
+      for (char digit = '0'; digit <= '9'; ++digit) {
+        std::string meant = digits;
+        AddSpelled(meant.insert(i, 1, digit), "a digit more", key, tag, found);
+        if (i == digits.size() || !IsWrittenDigit(digits[i])) continue;
+        meant = digits;
+        meant[i] = digit;
+        AddSpelled(meant, "another digit", key, tag, found);
+      }
+    }
+  }
+  return found;
+}
 
 }  // namespace groundglass

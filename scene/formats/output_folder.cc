@@ -12,6 +12,7 @@
 #include <array>
 #include <fstream>
 #include <memory>
+#include <optional>
 
 namespace groundglass {
 namespace {
@@ -60,6 +61,26 @@ Manifest ManifestFromJson(const nlohmann::json& json) {
          stage.value("sha256_of_files", std::map<std::string, std::string>())});
   }
   return manifest;
+}
+
+struct ManifestText {
+  bool is_ours = false;
+  std::optional<Manifest> manifest;  // nothing if it cannot be understood
+};
+
+ManifestText ParseManifest(const std::string& text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  // One that is cut short or garbled further on still begins as we write it.
+  if (json.is_discarded()) {
+    return {text.find("\"program\": \"" + std::string(kProgram)) < 100, std::nullopt};
+  }
+  if (!json.is_object() || json.value("program", "") != kProgram) return {};
+  try {
+    return {true, ManifestFromJson(json)};
+  } catch (const nlohmann::json::exception&) {
+    // Written by hand, or by an earlier version: nothing of it can be kept.
+    return {true, std::nullopt};
+  }
 }
 
 }  // namespace
@@ -126,14 +147,13 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
 std::optional<Manifest> ReadManifest(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kFileName;
   if (!std::filesystem::exists(file)) return std::nullopt;
-  const auto json = nlohmann::json::parse(ReadTextFile(file), nullptr, false);
-  if (!json.is_object() || json.value("program", "") != kProgram) return std::nullopt;
-  try {
-    return ManifestFromJson(json);
-  } catch (const nlohmann::json::exception&) {
-    // Written by hand, or by an earlier version: nothing of it can be kept.
-    return Manifest();
-  }
+  const ManifestText text = ParseManifest(ReadTextFile(file));
+  return text.is_ours ? std::optional(text.manifest.value_or(Manifest())) : std::nullopt;
+}
+
+bool IsManifestDamaged(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kFileName;
+  return std::filesystem::exists(file) && !ParseManifest(ReadTextFile(file)).manifest;
 }
 
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest) {

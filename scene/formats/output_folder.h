@@ -48,6 +48,9 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder);
 // The folder's manifest.json; an empty one if not all of it is understood, nothing if there is none
 // or it is another program's.
 std::optional<Manifest> ReadManifest(const std::filesystem::path& folder);
+// It is there and cannot be read, so that nobody knows what the files were made with.
+bool IsManifestDamaged(const std::filesystem::path& folder);
+
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest);
 
 }  // namespace groundglass

@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "scene/formats/image_kind.h"
 #include "scene/formats/text_encoding.h"
+#include "scene/nearest_word.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -41,6 +42,11 @@ std::string Skeleton(const std::string& name) {
     skeleton += c;
   }
   return skeleton;
+}
+
+std::string Digits(std::string text) {
+  std::erase_if(text, [](char c) { return c < '0' || c > '9'; });
+  return text;
 }
 
 using Form = std::string (*)(const std::string&);
@@ -109,10 +115,20 @@ std::vector<std::optional<size_t>> MatchPhotographs(std::span<const std::string>
 
 std::string NearestName(std::string_view word, std::span<const PhotographName> names) {
   const std::vector<size_t> found = FindInForm(Skeleton, word, names);
-  if (found.size() != 1) return "";
-  const PhotographName& name = names[found[0]];
-  return " (is it " + (name.file_name.empty() ? name.name : name.file_name) +
-         "? it differs in zeros, blanks, dashes or case only)";
+  if (found.size() > 1) return "";
+  if (found.size() == 1) {
+    const PhotographName& name = names[found[0]];
+    return " (is it " + (name.file_name.empty() ? name.name : name.file_name) +
+           "? it differs in zeros, blanks, dashes or case only)";
+  }
+  // Another number is another photograph, not a slip.
+  const std::string folded = Folded(std::string(word));
+  std::vector<std::string> known;
+  for (const PhotographName& name : names) {
+    if (Digits(Folded(name.name)) == Digits(folded)) known.push_back(name.name);
+  }
+  const std::optional<std::string> nearest = FindNearest(WithoutFolders(std::string(word)), known);
+  return nearest ? " (did you mean " + *nearest + "?)" : "";
 }
 
 }  // namespace groundglass

@@ -39,7 +39,7 @@ std::vector<std::optional<size_t>> MatchPhotographs(std::span<const std::string>
                                                     std::span<const PhotographName> names);
 
 // For a message about a word that nothing matches: " (is it s05? it differs in zeros, blanks or
-// dashes only)"; empty if no name is so close.
+// dashes only)", " (did you mean Turm?)"; empty if no name is so close.
 std::string NearestName(std::string_view word, std::span<const PhotographName> names);
 
 }  // namespace groundglass

@@ -56,6 +56,16 @@ const KeyValue* FindPair(const std::vector<KeyValue>& pairs, std::string_view ke
   return found == pairs.end() ? nullptr : &*found;
 }
 
+// The number that follows a sign which stands by itself, as in `y - 74.9`; empty if none does.
+std::string_view NumberAfterSign(const std::vector<TextToken>& tokens, size_t sign) {
+  const std::string_view text = tokens[sign].text;
+  if ((text != "-" && text != "+") || sign + 1 >= tokens.size()) return {};
+  const std::string_view next = tokens[sign + 1].text;
+  return !next.empty() && next[0] != '-' && next[0] != '+' && ParseNumber(next)
+             ? next
+             : std::string_view();
+}
+
 void StoreValue(const KeyValue& pair, double value, ViewTag& tag) {
   if (const std::optional<TagKey> key = FindTagKey(pair.key.text)) {
     SetTagValue(tag, *key, value);
@@ -106,7 +116,16 @@ class PairReader {
       Fail(key.line, "key " + Quote(key.text) + " has no value");
       return std::nullopt;
     }
-    const KeyValue pair{key, tokens_[next_++]};
+    const KeyValue pair{key, tokens_[next_]};
+    if (const std::string_view number = NumberAfterSign(tokens_, next_); !number.empty()) {
+      Fail(pair.value.line,
+           "key " + Quote(key.text) + ": a blank stands between the sign and the number; write " +
+               std::string(pair.value.text) + std::string(number));
+      reading_.pairs.push_back(pair);
+      next_ += 2;
+      return std::nullopt;
+    }
+    ++next_;
     if (const KeyValue* first = FindPair(reading_.pairs, key.text)) {
       Fail(key.line,
            "key " + Quote(key.text) + " is repeated; it stands on line " +

@@ -87,6 +87,18 @@ TEST(Convert, TellsWhatWasMendedInAModel) {
   EXPECT_THAT(run.err, HasSubstr("70 faces lie twice"));
 }
 
+TEST(Convert, TellsAFaceThatIsLeftOutAndCountsIt) {
+  const TemporaryFolder work;
+  WriteAll(work / "box.obj",
+           "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 99\n");
+  const ProgramRun run =
+      RunProgram({"convert", (work / "box.obj").string(), (work / "box.osu").string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("box.obj:9: face 4 is left out: point 99 is outside 1 to 5"));
+  EXPECT_THAT(run.out, HasSubstr("3 faces, 0 texture pages"));
+  EXPECT_THAT(run.out, HasSubstr("; 1 warning, see above"));
+}
+
 TEST(Render, AModelWithoutItsPictureIsGreyAndSaysSo) {
   const TemporaryFolder work;
   const fs::path source = fs::path(GROUNDGLASS_SOURCE_DIR) / "tests/data/models/mtl with blanks";

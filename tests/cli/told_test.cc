@@ -93,7 +93,67 @@ TEST(Told, WhyOnePhotographGivesNoStillsAndWhatWasChanged) {
     EXPECT_THAT(again.err, HasSubstr(file + " has changed since it was written"));
     EXPECT_EQ(Fingerprint(out), first) << file;
   }
-  EXPECT_THAT(RunProgram(without).err, Not(HasSubstr("has changed since")));
+  const ProgramRun last = RunProgram(without);
+  EXPECT_THAT(last.err, Not(HasSubstr("has changed since")));
+
+  // With nothing to do it tells what the first run told, and a dry run what is kept.
+  std::vector<std::string> for_people = without;
+  std::erase(for_people, "--json");
+  EXPECT_THAT(RunProgram(for_people).out, HasSubstr("texture covers "));
+  for_people.push_back("--dry-run");
+  EXPECT_THAT(RunProgram(for_people).out,
+              HasSubstr("would keep what is there already of: register, overlays, texture"));
+  const std::string manifest = ReadAll(out / "manifest.json");
+  WriteAll(out / "manifest.json", half(manifest));
+  EXPECT_THAT(
+      RunProgram(without).err,
+      testing::AllOf(HasSubstr("manifest.json is damaged"), HasSubstr("everything is made again")));
+}
+
+TEST(Told, WhatADryRunCannotReadAndWhichNameIsMeant) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1", "s2"});
+  fs::rename(scene / "images/s2.jpg", scene / "images/Turm.jpg");
+  fs::rename(scene / "views/s2.view", scene / "views/Turm.view");
+  std::vector<std::string> words = {
+      "run", scene.string(), "-o", (work / "out").string(), "--dry-run", "--only", "Tur"};
+  EXPECT_THAT(RunProgram(words).err, HasSubstr("did you mean Turm?"));
+  words.resize(words.size() - 2);
+  const std::string jpeg = ReadAll(scene / "images/s1.jpg");
+  WriteAll(scene / "images/s1.jpg", jpeg.substr(0, jpeg.size() / 2));
+  EXPECT_THAT(
+      RunProgram(words).out,
+      testing::AllOf(HasSubstr("would leave out 1 that cannot be read"), HasSubstr("s1.jpg")));
+}
+
+TEST(Told, AWrongUnitBeforeTheWorkBegins) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1", "s3", "s5", "s7", "s9"});
+  const fs::path model = work / "model.osu";
+  ASSERT_EQ(RunProgram({"convert",
+                        (scene / "model.osu").string(),
+                        model.string(),
+                        "--unit",
+                        "ft",
+                        "--to-unit",
+                        "mm"})
+                .status,
+            0);
+  const ProgramRun run = RunProgram({"run",
+                                     scene.string(),
+                                     "-o",
+                                     (work / "out").string(),
+                                     "--model",
+                                     model.string(),
+                                     "--max-texture",
+                                     "256",
+                                     "--stills",
+                                     "0"});
+  const size_t told = run.err.find("it is in mm and they in ft");
+  ASSERT_NE(told, std::string::npos) << run.err;
+  EXPECT_LT(told, run.err.find("registering"));
 }
 
 }  // namespace

@@ -50,6 +50,11 @@ TEST(FindFaces, KnowsNumbersRangesAndNames) {
   }
 }
 
+TEST(FindFaces, ARangeThatRunsBackwards) {
+  EXPECT_THAT(ThrownMessage([] { FindFaces(FiveWalls(), {"5-3"}); }),
+              HasSubstr("runs backwards: write 3-5"));
+}
+
 TEST(ExcludePhotographs, KnowsThemByNameAndByFile) {
   std::vector<BakePhotograph> photographs = Named({"s1", "s2", "s3"});
   ExcludePhotographs({"s1", "s3.jpg"}, photographs);

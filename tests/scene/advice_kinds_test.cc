@@ -152,6 +152,59 @@ TEST(FindOddities, SlipsOfTheDecimalPointAndTheSign) {
               ElementsAre(HasSubstr("with the sign of k changed")));
 }
 
+// The hall's model in one unit, its tags in another, as most of six or of all photographs say it.
+Scene HallInUnits(double model_per_foot, double tags_per_foot, size_t num_photographs) {
+  Scene scene = HallWithTags([&](const auto& p) {
+    return Eigen::Vector3d((p * tags_per_foot * 100).array().round() / 100);
+  });
+  scene.model_file = "hall/model.obj";
+  for (Eigen::Vector3d& point : scene.model.points_in_world) point *= model_per_foot;
+  scene.photographs.resize(num_photographs);
+  return scene;
+}
+
+TEST(FindOddities, TheUnitInSpiteOfMistypedTags) {
+  struct Units {
+    double model_per_foot;
+    double tags_per_foot;
+    const char* told;
+  };
+  for (const Units& units : {Units{304.8, 0.3048, "it is in mm and they in m"},
+                             Units{304.8, 1, "it is in mm and they in ft"},
+                             Units{1, 0.3048, "it is in ft and they in m"},
+                             Units{0.3048, 1, "it is in m and they in ft"}}) {
+    for (const size_t num_photographs : {6u, 12u}) {
+      for (const size_t num_mistyped : {0u, 1u, 2u, 3u}) {
+        if (3 * num_mistyped > num_photographs) continue;
+        Scene scene = HallInUnits(units.model_per_foot, units.tags_per_foot, num_photographs);
+        if (num_mistyped > 0) scene.photographs[0].tag.lookat_in_site.x() *= 4.75;
+        if (num_mistyped > 1) scene.photographs[3].tag.position_in_site.y() /= 10;
+        if (num_mistyped > 2) scene.photographs[4].tag.position_in_site.x() *= 10;
+        EXPECT_THAT(Told(scene, true), testing::Contains(HasSubstr(units.told)))
+            << num_mistyped << " of " << num_photographs;
+      }
+    }
+  }
+}
+
+TEST(FindOddities, SlipsThatOnlyThePictureTells) {
+  const auto with = [](const char* name, TagKey key, double value) {
+    Scene scene = Hall();
+    SetTagValue(std::find_if(scene.photographs.begin(),
+                             scene.photographs.end(),
+                             [&](const auto& one) { return one.name == name; })
+                    ->tag,
+                key,
+                value);
+    return Told(scene, true);
+  };
+  EXPECT_THAT(with("s7", TagKey::kX, 64.7), ElementsAre(HasSubstr("x 46.7 (two digits")));
+  EXPECT_THAT(with("s7", TagKey::kV, 45), ElementsAre(HasSubstr("v 54 (two digits exchanged)")));
+  EXPECT_THAT(with("s3", TagKey::kY, -6.64), ElementsAre(HasSubstr("ten times y")));
+  EXPECT_THAT(with("s7", TagKey::kZ, 0.47), ElementsAre(HasSubstr("ten times z")));
+  EXPECT_THAT(with("s5", TagKey::kX, 37.3), ElementsAre(HasSubstr("s5.view")));
+}
+
 TEST(FindOddities, TheRasterOfAModelWhoseFacesItSpoiled) {
   // A window of 0.4 m far from the origin, through floats: its corners fall together.
   const TemporaryFolder folder;

@@ -259,6 +259,21 @@ TEST(FindOddities, OneTagThatIsWrong) {
               ElementsAre(HasSubstr("the whole model lies behind this camera")));
 }
 
+TEST(FindOddities, OneOddRowOfATableDoesNotSilenceTheOthers) {
+  // Rows of a table have no file of their own: each is told under its photograph's name.
+  Scene scene = ReadBrick();
+  for (Photograph& photograph : scene.photographs) photograph.view_file.clear();
+  TagOf(scene, "s3").position_in_site.z() = -500;
+  TagOf(scene, "s5").position_in_site.x() /= 10;
+  TagOf(scene, "s7").lookat_in_site.x() *= -1;
+  std::vector<std::string> lines;
+  for (const Advice& advice : FindOddities(scene)) lines.push_back(FormatAdvice(advice));
+  EXPECT_THAT(lines,
+              ElementsAre(HasSubstr("tags.csv: s3: the camera stands below the ground"),
+                          HasSubstr("tags.csv: s5: "),
+                          HasSubstr("tags.csv: s7: ")));
+}
+
 TEST(FindOddities, TheSameAngleUprightAndLying) {
   Scene scene = ReadBrick();
   Photograph& upright = scene.photographs[4];

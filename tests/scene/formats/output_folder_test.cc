@@ -80,6 +80,20 @@ TEST(Manifest, KeepsTheStages) {
   folder.Write("manifest.json", "{\"program\": \"groundglass\", \"stages\": 3}");
   ASSERT_TRUE(ReadManifest(folder.path()));
   EXPECT_TRUE(ReadManifest(folder.path())->stages.empty());
+  EXPECT_TRUE(IsManifestDamaged(folder.path()));
+}
+
+TEST(Manifest, OneThatIsCutShortIsStillOurs) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(IsManifestDamaged(folder.path()));
+  WriteManifest(folder.path(), {});
+  EXPECT_FALSE(IsManifestDamaged(folder.path()));
+  const std::string whole = FormatManifest({});
+  folder.Write("manifest.json", whole.substr(0, whole.size() - 5));
+  EXPECT_TRUE(IsManifestDamaged(folder.path()));
+  ASSERT_TRUE(ReadManifest(folder.path()));
+  EXPECT_TRUE(ReadManifest(folder.path())->stages.empty());
+  PrepareOutputFolder(folder.path());
 }
 
 }  // namespace

@@ -76,6 +76,9 @@ TEST(NearestName, SaysInWhatItDiffers) {
   EXPECT_THAT(NearestName("img12", names), HasSubstr("is it IMG_0012.jpg? it differs in zeros"));
   EXPECT_THAT(NearestName("s05", names), HasSubstr("is it s5.jpg?"));
   EXPECT_EQ(NearestName("s50", names), "");
+  const std::vector<PhotographName> words = {{"Turm", "Turm.jpg"}, {"Tor2", "Tor2.jpg"}};
+  EXPECT_EQ(NearestName("Tur", words), " (did you mean Turm?)");
+  EXPECT_EQ(NearestName("Tor3", words), "");
 }
 
 }  // namespace

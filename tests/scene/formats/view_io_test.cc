@@ -115,6 +115,14 @@ TEST(FindViewFaults, TellsAllOfThemAtOnce) {
   EXPECT_THAT(faults[3], HasSubstr("s.view: key 'v' is missing"));
 }
 
+TEST(FindViewFaults, ABlankAfterTheSignIsOneFault) {
+  const std::vector<std::string> faults =
+      FindViewFaults("x 1\ny - 74.9\nz 5 i 1 j 2 k 3 a 1.5 v 54", "s.view");
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0],
+            "s.view:2: key 'y': a blank stands between the sign and the number; write -74.9");
+}
+
 TEST(ReadView, NamesAMissingFile) {
   EXPECT_EQ(ThrownMessage([] { ReadView("no/such.view"); }), "no/such.view: cannot open this file");
 }
