@@ -28,6 +28,8 @@ struct PhotographInput {
 struct PhotographAlignment {
   Registration registration;
   AlignedPhotograph aligned;  // empty unless the verdict is `accepted`
+  // Why options.keep_folder does not have what it should; empty if it has.
+  std::string keep_fault;
 };
 
 // Corrects one photograph's tag against the model's edges. Not converging is a result (verdict,

@@ -21,17 +21,17 @@ LensKey LensKeyOf(const Registration& registration) {
 }
 
 // What speaks for the camera that the photographs found together. It is scored as the photograph's
-// own solution was, by what that one saw; the rival's score stays, its own best.
+// own solution was, by what that one saw; the second-best's score stays, its own best.
 Evidence EvidenceFor(const CameraParameters& whitened,
                      const AlignedPhotograph& photograph,
                      const ScoreOptions& options) {
   Evidence evidence;
   evidence.score =
       ScoreFromSamples(photograph.score_samples, photograph.prior.ProjectionAt(whitened), options);
-  evidence.rival_distance_px = photograph.rival_distance_px;
-  if (photograph.rival_nats) {
+  evidence.second_best_distance_px = photograph.second_best_distance_px;
+  if (photograph.second_best_nats) {
     evidence.margin_nats =
-        evidence.score.nats - 0.5 * whitened.squaredNorm() - *photograph.rival_nats;
+        evidence.score.nats - 0.5 * whitened.squaredNorm() - *photograph.second_best_nats;
   }
   return evidence;
 }

@@ -63,7 +63,7 @@ PhotographAlignment AlignOrSayWhyNot(const Scene& scene,
     input.grey8 = ReadGrey8(photograph.image_file);
     if (photograph.mask_file) input.ignore = ReadIgnoreMask(*photograph.mask_file, photograph.size);
   } catch (const Error& error) {
-    return {UnreadableRegistration(scene, photograph.name, {error.what()}), {}};
+    return {UnreadableRegistration(scene, photograph.name, {error.what()}), {}, {}};
   }
   try {
     PhotographAlignment alignment = AlignPhotograph(input, edge_model, options);
@@ -72,9 +72,10 @@ PhotographAlignment AlignOrSayWhyNot(const Scene& scene,
       return alignment;
     }
     return {RejectedRegistration(photograph, "the solution for this photograph is not determined"),
-            {}};
+            {},
+            std::move(alignment.keep_fault)};
   } catch (const Error& error) {
-    return {RejectedRegistration(photograph, error.what()), {}};
+    return {RejectedRegistration(photograph, error.what()), {}, {}};
   }
 }
 
@@ -104,6 +105,9 @@ RegisteredScene RegisterScene(const Scene& scene,
     }
   });
   RegisteredScene registered;
+  for (const PhotographAlignment& alignment : alignments) {
+    if (!alignment.keep_fault.empty()) registered.warnings.push_back(alignment.keep_fault);
+  }
   if (!options.independent) {
     try {
       registered.model_errors = FindModelErrors(

@@ -10,6 +10,7 @@
 #include "register/verdict/overrule.h"
 #include "register/verdict/verdict.h"
 
+#include <filesystem>
 #include <functional>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct RegisterOptions {
   int max_width_px = 1600;
   // Places that a person has recognised, of all photographs, in pixels of theirs.
   std::vector<ControlPoint> control_points;
+  // Where what each photograph's stages hand to one another is written, to be looked at
+  // (KeepStages); nowhere if empty.
+  std::filesystem::path keep_folder;
   // How the accepted photographs are refined together; another function is another method.
   std::function<JointRefinement(const EdgeModel&,
                                 const std::vector<AlignedPhotograph>&,

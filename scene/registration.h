@@ -66,7 +66,7 @@ struct Registration {
   int width_px = 0;
   int height_px = 0;
   Verdict verdict = Verdict::kRejected;
-  std::vector<std::string> reasons;  // why not accepted; which direction is free; the rival
+  std::vector<std::string> reasons;  // why not accepted
   ViewTag measured;
   ViewTag corrected;                                   // equals `measured` when rejected
   CameraParameters sigmas = CameraParameters::Zero();  // posterior standard deviations
@@ -81,7 +81,7 @@ struct Registration {
   std::optional<double> rms_px;
   std::optional<double> robust_sigma_px;
   double score_nats = 0;              // above zero: better than chance
-  std::optional<double> margin_nats;  // over the best rival; nothing if there is none
+  std::optional<double> margin_nats;  // over the second-best camera; nothing if there is none
   double moved_px = 0;  // mean displacement of the model's visible edges by the correction
   // What is left uncertain: one standard deviation of where the model's points are seen, the mean
   // over those in the frame, hidden ones included.
