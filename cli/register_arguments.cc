@@ -101,6 +101,15 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
   AddModelOptions(command, arguments.model_arguments);
 }
 
+void AddKeepOption(CLI::App* command, RegisterArguments& arguments) {
+  command
+      ->add_option("--keep",
+                   arguments.options.keep_folder,
+                   "also write there what the stages of registration hand to one another: samples, "
+                   "solutions, matches, a picture for each photograph")
+      ->type_name("DIR");
+}
+
 RegisterOptions ReadRegisterOptions(const RegisterArguments& arguments) {
   RegisterOptions options = arguments.options;
   if (arguments.points_file) options.control_points = ReadControlPoints(*arguments.points_file);

@@ -29,6 +29,8 @@ struct RegisterArguments {
   RegisterOptions options;
 };
 void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments);
+// --keep, which changes nothing of what is found, and so is no part of a stage's key.
+void AddKeepOption(CLI::App* command, RegisterArguments& arguments);
 
 // What the arguments come to, with the files that they name read. Error for one at fault.
 RegisterOptions ReadRegisterOptions(const RegisterArguments& arguments);
@@ -43,7 +45,7 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
                           const std::vector<std::string>& not_needed = {});
 
 // The table that a person reads: verdict, how far the picture moved, how its edges scatter about
-// the model's (root mean square, and robustly), score, margin over the best rival, reasons.
+// the model's (root mean square, and robustly), score, margin over the second-best, reasons.
 void PrintRegistrations(const std::vector<Registration>& registrations);
 // How many have which verdict, and how many warnings there are.
 void PrintVerdictCounts(const std::vector<Registration>& registrations, size_t num_warnings);

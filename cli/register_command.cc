@@ -30,6 +30,7 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
     AddRegisterArguments(command, arguments->registering);
     AddCommonOptions(command, arguments->common);
   });
+  AddKeepOption(command, arguments->registering);
   AddExample(command, "groundglass register hall -o hall-out --sigma-lookat 0.5");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] {

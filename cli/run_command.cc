@@ -176,6 +176,7 @@ void AddRunCommand(CLI::App& app, int& exit_status) {
   const std::vector<const CLI::Option*> common =
       OptionsAddedBy(command, [&] { AddCommonOptions(command, arguments->common); });
   options.registering.insert(options.registering.end(), common.begin(), common.end());
+  AddKeepOption(command, arguments->registering);
   AddExample(command, "groundglass run hall -o hall-out");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [&] { return Run(*arguments); });

@@ -6,6 +6,7 @@
 #include "scene/formats/image_paths.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/view_io.h"
+#include "scene/text.h"
 
 #include <algorithm>
 

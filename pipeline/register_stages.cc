@@ -60,7 +60,8 @@ RegisteredScene EnsureRegistered(const Scene& scene,
                                  const std::string& key,
                                  OutputStages& stages,
                                  const JobObserver& observer) {
-  if (stages.Has(kRegisterStage, key, kRegistrationFile)) {
+  // What is to be kept of the stages on the way is made only by going it.
+  if (options.keep_folder.empty() && stages.Has(kRegisterStage, key, kRegistrationFile)) {
     if (std::optional<RegisteredScene> kept = ReadRegistered(scene, out / kRegistrationFile)) {
       observer.Keep(kRegisterStage);
       if (!stages.IsComplete(kRegisterStage, key)) {

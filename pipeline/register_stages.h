@@ -25,7 +25,8 @@ void TellChanged(const OutputStages& stages,
                  const std::vector<std::string>& names,
                  const JobObserver& observer);
 
-// Corrected tags: views/, registration.json and cameras/.
+// Corrected tags: views/, registration.json and cameras/. With options.keep_folder they are made
+// anew.
 RegisteredScene EnsureRegistered(const Scene& scene,
                                  const std::optional<Lens>& lens,
                                  const RegisterOptions& options,

@@ -3,6 +3,8 @@
 #include "register/align_photograph.h"
 
 #include "register/fill_registration.h"
+#include "register/keep_stages.h"
+#include "scene/error.h"
 #include "scene/reduce.h"
 
 #include <opencv2/imgproc.hpp>
@@ -78,7 +80,7 @@ WorkingPicture Reduced(const PhotographInput& photograph, const WorkingSize& siz
 
 // What refining an accepted photograph together with others needs.
 AlignedPhotograph Align(const Solution& best,
-                        const Rival& rival,
+                        const SecondBest& second_best,
                         const CameraPrior& prior,
                         const std::shared_ptr<const TiePicture>& picture,
                         const EdgeEvidence& evidence,
@@ -100,12 +102,23 @@ AlignedPhotograph Align(const Solution& best,
   aligned.noise_px = refined.noise_px;
   aligned.score_samples = FindScoreSamples(
       refined.samples, projection, evidence, options.joint.start_range_px, options.solutions.score);
-  if (rival.solution) {
-    aligned.rival_nats = rival.solution->TotalScore();
-    aligned.rival_whitened = rival.solution->refinement.whitened;
+  if (second_best.solution) {
+    aligned.second_best_nats = second_best.solution->TotalScore();
+    aligned.second_best_whitened = second_best.solution->refinement.whitened;
   }
-  aligned.rival_distance_px = rival.distance_px / scale;
+  aligned.second_best_distance_px = second_best.distance_px / scale;
   return aligned;
+}
+
+// Why the stages could not be kept; empty if they were, or nobody asked.
+std::string KeepIfAsked(const AlignmentStages& stages, const RegisterOptions& options) {
+  if (options.keep_folder.empty()) return "";
+  try {
+    KeepStages(stages, options.solutions, options.keep_folder);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace
@@ -136,6 +149,7 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   // The cameras that fit, the best, and the best one elsewhere.
   const std::vector<Solution> solutions =
       FindSolutions(edge_model, evidence, prior, points, options.solutions);
+  alignment.keep_fault = KeepIfAsked({photograph, edge_model, prior, evidence, solutions}, options);
   if (solutions.empty()) {
     registration.reasons.push_back("the measured tag sees almost nothing of the model");
     registration.covariance = prior.root * prior.root.transpose();
@@ -143,7 +157,7 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   }
   const Solution& best = solutions.front();
   const Refinement& refined = best.refinement;
-  const Rival rival = FindRival(solutions, prior, options.solutions);
+  const SecondBest second_best = FindSecondBest(solutions, prior, options.solutions);
   FillRegistration({refined.whitened, refined.covariance, refined.num_matched, refined.spread},
                    prior,
                    edge_model.model,
@@ -151,8 +165,9 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
                    registration);
 
   // Whether to believe it.
-  Evidence support{best.score, {}, rival.distance_px / size.scale};
-  if (rival.solution) support.margin_nats = best.TotalScore() - rival.solution->TotalScore();
+  Evidence support{best.score, {}, second_best.distance_px / size.scale, !points.empty()};
+  if (second_best.solution)
+    support.margin_nats = best.TotalScore() - second_best.solution->TotalScore();
   registration.verdict = Verdict::kAccepted;
   RecordEvidence(support, registration);
   const ParameterProjection projection = prior.ProjectionAt(refined.whitened);
@@ -164,12 +179,12 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   if (!HasCorrection(registration.verdict) || !points.empty()) return alignment;
   const auto tie_picture =
       std::make_shared<const TiePicture>(picture.grey8, picture.ignore, options.ties.num_levels);
-  const auto align = [&](const Solution& solution, const Rival& elsewhere) {
+  const auto align = [&](const Solution& solution, const SecondBest& elsewhere) {
     return Align(solution, elsewhere, prior, tie_picture, evidence, size.scale, options);
   };
-  alignment.aligned = align(best, rival);
-  if (registration.verdict == Verdict::kReview && rival.solution) {
-    alignment.rival = align(*rival.solution, {&best, rival.distance_px});
+  alignment.aligned = align(best, second_best);
+  if (registration.verdict == Verdict::kReview && second_best.solution) {
+    alignment.second_best = align(*second_best.solution, {&best, second_best.distance_px});
   }
   return alignment;
 }

@@ -26,11 +26,14 @@ struct PhotographInput {
 // A photograph that was aligned by itself, with what refining it together with others needs. Its
 // verdict does not heed yet how certain the camera is (FinishVerdict).
 struct PhotographAlignment {
-  Registration registration;
+  Registration registration = {};
   // As it was found; empty where the photograph was rejected, or a person pointed at places.
   AlignedPhotograph aligned = {};
-  // Of a photograph in `review`, as its best rival has it; nothing if there is none.
-  std::optional<AlignedPhotograph> rival = {};
+  // Of a photograph in `review`, as its second-best camera has it; nothing if there is
+  // none.
+  std::optional<AlignedPhotograph> second_best = {};
+  // Why options.keep_folder does not have what it should; empty if it has.
+  std::string keep_fault = {};
 };
 
 // Corrects one photograph's tag against the model's edges. Not converging is a result (verdict,

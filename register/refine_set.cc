@@ -100,7 +100,7 @@ TieSupport SupportFor(const AlignedPhotograph& photograph,
   return MeasureTieSupport(0, ties, views, edge_model.sigma, options.tie_support);
 }
 
-// What edges and ties say for a camera, as far as they can be compared with its rival's.
+// What edges and ties say for a camera, as far as they can be compared with its second-best one's.
 double NatsFor(const AlignedPhotograph& photograph, const ScoreOptions& options) {
   return ScoreFromSamples(
              photograph.score_samples, photograph.prior.ProjectionAt(photograph.whitened), options)
@@ -109,7 +109,7 @@ double NatsFor(const AlignedPhotograph& photograph, const ScoreOptions& options)
 }
 
 // Photographs that are not accepted by themselves join those that are where others show the same,
-// each with the camera, its own or its rival's, that edges and ties together speak for.
+// each with the camera, its best or its second-best one, that edges and ties together speak for.
 void JoinByTies(const EdgeModel& edge_model,
                 const RegisterOptions& options,
                 const std::vector<const PhotographAlignment*>& barred,
@@ -132,16 +132,17 @@ void JoinByTies(const EdgeModel& edge_model,
   }
   tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
     Candidate& candidate = candidates[i];
-    const std::optional<AlignedPhotograph>& rival = candidate.alignment->rival;
+    const std::optional<AlignedPhotograph>& second_best = candidate.alignment->second_best;
     TieSupport support =
         SupportFor(candidate.photograph, views, num_members + i, edge_model, options);
-    if (rival && !rival->found.empty()) {
-      const TieSupport rivals = SupportFor(*rival, views, num_members + i, edge_model, options);
+    if (second_best && !second_best->found.empty()) {
+      const TieSupport others =
+          SupportFor(*second_best, views, num_members + i, edge_model, options);
       const ScoreOptions& score = options.solutions.score;
-      if (CountedLead(rivals, support, options.tie_support) >
-          NatsFor(candidate.photograph, score) - NatsFor(*rival, score)) {
-        candidate.photograph = *rival;
-        support = rivals;
+      if (CountedLead(others, support, options.tie_support) >
+          NatsFor(candidate.photograph, score) - NatsFor(*second_best, score)) {
+        candidate.photograph = *second_best;
+        support = others;
       }
     }
     candidate.joins = MayJoin(support, options.tie_support);
@@ -177,22 +178,22 @@ bool TakeOutWorsened(const RegisterOptions& options,
 }
 
 // What edges and other photographs say for the camera that the set has found. It is scored as the
-// photograph's own solution was, by what that one saw; the rival's score stays, its own best.
+// photograph's own solution was, by what that one saw; the second-best score stays, its own best.
 Evidence EvidenceFor(const AlignedPhotograph& photograph,
                      const TieSupport& support,
-                     const std::function<TieSupport()>& rivals_support,
+                     const std::function<TieSupport()>& second_best_support,
                      const RegisterOptions& options) {
   Evidence evidence;
   evidence.score = ScoreFromSamples(photograph.score_samples,
                                     photograph.prior.ProjectionAt(photograph.whitened),
                                     options.solutions.score);
-  evidence.rival_distance_px = photograph.rival_distance_px;
-  if (photograph.rival_nats) {
-    evidence.margin_nats =
-        evidence.score.nats - 0.5 * photograph.whitened.squaredNorm() - *photograph.rival_nats;
-    // Patches are compared through the rival's camera as well only where edges do not decide.
+  evidence.second_best_distance_px = photograph.second_best_distance_px;
+  if (photograph.second_best_nats) {
+    evidence.margin_nats = evidence.score.nats - 0.5 * photograph.whitened.squaredNorm() -
+                           *photograph.second_best_nats;
+    // Patches are compared through the second-best camera as well only where edges do not decide.
     if (options.use_ties && *evidence.margin_nats < LeastMargin(evidence.score, options.verdict)) {
-      *evidence.margin_nats += CountedLead(support, rivals_support(), options.tie_support);
+      *evidence.margin_nats += CountedLead(support, second_best_support(), options.tie_support);
     }
   }
   evidence.tie_nats = CountedNats(support, options.tie_support);
@@ -212,17 +213,17 @@ void JudgeMember(size_t i,
     support = SupportFor(photograph, views, i, edge_model, options);
     registration.ties = {support.num_tried, support.num_agreeing, support.nats};
   }
-  const auto rivals_support = [&] {
-    AlignedPhotograph rival = photograph;
-    rival.whitened = photograph.rival_whitened;
-    return SupportFor(rival, views, i, edge_model, options);
+  const auto second_best_support = [&] {
+    AlignedPhotograph second_best = photograph;
+    second_best.whitened = photograph.second_best_whitened;
+    return SupportFor(second_best, views, i, edge_model, options);
   };
   std::vector<Eigen::Vector3d> points_in_world;
   for (const CandidateSample& found : photograph.found) {
     points_in_world.push_back(found.sample.point_in_world);
   }
   FillRegistration(solution, photograph.prior, edge_model.model, points_in_world, registration);
-  const Evidence evidence = EvidenceFor(photograph, support, rivals_support, options);
+  const Evidence evidence = EvidenceFor(photograph, support, second_best_support, options);
   RecordEvidence(evidence, registration);
   registration.verdict = Verdict::kAccepted;
   registration.reasons.clear();

@@ -61,7 +61,7 @@ PhotographAlignment AlignOrSayWhyNot(const Scene& scene,
     input.grey8 = ReadGrey8(photograph.image_file);
     if (photograph.mask_file) input.ignore = ReadIgnoreMask(*photograph.mask_file, photograph.size);
   } catch (const Error& error) {
-    return {UnreadableRegistration(scene, photograph.name, {error.what()}), {}};
+    return {UnreadableRegistration(scene, photograph.name, {error.what()})};
   }
   try {
     PhotographAlignment alignment = AlignPhotograph(input, edge_model, options);
@@ -69,10 +69,12 @@ PhotographAlignment AlignOrSayWhyNot(const Scene& scene,
     if (ParametersFromTag(found.corrected).allFinite() && found.covariance.allFinite()) {
       return alignment;
     }
-    return {RejectedRegistration(photograph, "the solution for this photograph is not determined"),
-            {}};
+    PhotographAlignment rejected{
+        RejectedRegistration(photograph, "the solution for this photograph is not determined")};
+    rejected.keep_fault = std::move(alignment.keep_fault);
+    return rejected;
   } catch (const Error& error) {
-    return {RejectedRegistration(photograph, error.what()), {}};
+    return {RejectedRegistration(photograph, error.what())};
   }
 }
 
@@ -95,6 +97,9 @@ RegisteredScene RegisterScene(const Scene& scene,
                std::string(VerdictName(alignments[index].registration.verdict)));
   });
   RegisteredScene registered;
+  for (const PhotographAlignment& alignment : alignments) {
+    if (!alignment.keep_fault.empty()) registered.warnings.push_back(alignment.keep_fault);
+  }
   if (!options.independent) {
     try {
       registered.model_errors = FindModelErrors(

@@ -25,7 +25,7 @@
 //   search/   FindHypotheses            samples, evidence, prior -> starts over the whole prior
 //             ScoreAlignment            samples, evidence        -> how much speaks for a camera
 //   refine/   RefinePhotograph          a start                  -> the best camera near it
-//             FindSolutions, FindRival  the three above          -> solutions, best first
+//             FindSolutions, FindSecondBest  the three above          -> solutions, best first
 //   joint/    RefineTogether            accepted photographs     -> cameras, lenses, model's edges
 //             FindModelErrors           displaced edges          -> lines that the model has wrong
 //   verdict/  Judge...                  score, change, precision -> accepted, review, rejected, why

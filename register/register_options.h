@@ -11,6 +11,7 @@
 #include "register/verdict/overrule.h"
 #include "register/verdict/verdict.h"
 
+#include <filesystem>
 #include <functional>
 #include <vector>
 
@@ -39,6 +40,9 @@ struct RegisterOptions {
   bool use_ties = true;
   // How often they are compared anew, through the cameras found so far.
   int num_tie_rounds = 2;
+  // Where what each photograph's stages hand to one another is written, to be looked at
+  // (KeepStages); nowhere if empty.
+  std::filesystem::path keep_folder;
   // How the accepted photographs are refined together; another function is another method.
   std::function<JointRefinement(const EdgeModel&,
                                 const std::vector<AlignedPhotograph>&,

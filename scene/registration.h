@@ -66,7 +66,7 @@ struct Registration {
   int width_px = 0;
   int height_px = 0;
   Verdict verdict = Verdict::kRejected;
-  std::vector<std::string> reasons;  // why not accepted; which direction is free; the rival
+  std::vector<std::string> reasons;  // why not accepted
   ViewTag measured;
   ViewTag corrected;                                   // equals `measured` when rejected
   CameraParameters sigmas = CameraParameters::Zero();  // posterior standard deviations
@@ -81,7 +81,7 @@ struct Registration {
   std::optional<double> rms_px;
   std::optional<double> robust_sigma_px;
   double score_nats = 0;              // above zero: better than chance
-  std::optional<double> margin_nats;  // over the best rival; nothing if there is none
+  std::optional<double> margin_nats;  // over the second-best camera; nothing if there is none
   // What other photographs say of the camera: patches of faces sought in them, and found where the
   // cameras expect them; nothing where the photograph was not refined together with others.
   struct Ties {

@@ -24,6 +24,13 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+// Whether names of kCameraParameterNames, or "shift" for both, have this parameter among them.
+bool IsNamed(const std::vector<std::string>& names, CameraParameter parameter) {
+  const bool is_shift = parameter == kShiftX || parameter == kShiftY;
+  return Contains(names, std::string(kCameraParameterNames[parameter])) ||
+         (is_shift && Contains(names, "shift"));
+}
+
 void RequireParameterNames(const std::vector<std::string>& names, const std::string& option) {
   for (const std::string& name : names) {
     if (name == "shift") continue;
@@ -49,6 +56,131 @@ TagSigmas SigmasThatHold(TagSigmas sigmas, const std::vector<std::string>& free)
     if (name == "k1") sigmas.k1.reset();
   }
   return sigmas;
+}
+
+// The six numbers that a tape measures: position and look-at point, in `site`.
+constexpr int kNumMeasured = 6;
+using MeasuredSigmas = Eigen::Matrix<double, kNumMeasured, 1>;
+// Position, yaw and pitch follow from them: the first of CameraParameters.
+constexpr int kNumPose = 5;
+
+// One standard deviation each, in the model's unit: the tag's own, else the larger of a length and
+// a share of the distance.
+MeasuredSigmas SigmasOfMeasured(const ViewTag& tag,
+                                const TagSigmas& noted,
+                                LengthUnit unit,
+                                const PriorOptions& options) {
+  const double units_per_metre = 1 / MetresPerUnit(unit);
+  const double distance = (tag.lookat_in_site - tag.position_in_site).norm();
+  const auto length_sigma = [&](const std::optional<double>& own, double metres, double share) {
+    return own.value_or(std::max(metres * units_per_metre, share * distance));
+  };
+  const double position = length_sigma(
+      noted.position, options.position_m.value_or(kPosition_m), options.position_share);
+  const double height =
+      length_sigma(noted.height, options.height_m.value_or(kHeight_m), options.height_share);
+  const double lookat =
+      length_sigma(noted.lookat, options.lookat_m.value_or(kLookat_m), options.lookat_share);
+  MeasuredSigmas sigmas;
+  sigmas << position, position, height, lookat, lookat, lookat;
+  return sigmas;
+}
+
+// d (position, yaw, pitch) / d (position, look-at point): finite differences of the tag itself.
+Eigen::Matrix<double, kNumPose, kNumMeasured> PoseByMeasured(const ViewTag& tag) {
+  const double step = 1e-5 * (tag.lookat_in_site - tag.position_in_site).norm();
+  Eigen::Matrix<double, kNumPose, kNumMeasured> by_measured;
+  for (int column = 0; column < kNumMeasured; ++column) {
+    ViewTag ahead = tag;
+    ViewTag behind = tag;
+    (column < 3 ? ahead.position_in_site[column] : ahead.lookat_in_site[column - 3]) += step;
+    (column < 3 ? behind.position_in_site[column] : behind.lookat_in_site[column - 3]) -= step;
+    Eigen::Matrix<double, kNumPose, 1> change =
+        (ParametersFromTag(ahead) - ParametersFromTag(behind)).head<kNumPose>();
+    change[kYaw] = std::remainder(change[kYaw], 360.0);
+    by_measured.col(column) = change / (2 * step);
+  }
+  return by_measured;
+}
+
+// What is known of lens and slide, in the order of CameraParameters: one standard deviation each of
+// roll, view angle, aspect, shift x, shift y and k1.
+constexpr int kNumLensAndSlide = 6;
+using LensAndSlideSigmas = Eigen::Matrix<double, kNumLensAndSlide, 1>;
+
+LensAndSlideSigmas SigmasOfTag(const ViewTag& tag,
+                               const TagSigmas& noted,
+                               const PriorOptions& options) {
+  const double shift = noted.shift.value_or(options.shift);
+  LensAndSlideSigmas sigmas;
+  sigmas << noted.roll_deg.value_or(options.roll_deg),
+      noted.view_angle_deg.value_or(options.view_angle_share * tag.view_angle_deg),
+      noted.aspect.value_or(options.aspect_share * tag.aspect), shift, shift,
+      noted.k1.value_or(options.k1);
+  return sigmas;
+}
+
+// The same where the lens is calibrated: its own uncertainty, and on top of it, unless the
+// photograph is digital, what mount and scan do. Parameters that are to be free are at least as
+// uncertain as the options say.
+LensAndSlideSigmas SigmasOfLens(const Lens& lens, double roll_deg, const PriorOptions& options) {
+  // A scale error of the mount changes the tangent of half the view angle.
+  const double view_angle_by_scale =
+      DegreesFromRadians(std::sin(RadiansFromDegrees(lens.view_angle_deg)));
+  const double slide = options.digital ? 0 : 1;
+  LensAndSlideSigmas sigmas;
+  sigmas << roll_deg,
+      std::hypot(lens.sigma_view_angle_deg,
+                 slide * options.slide_scale_share * view_angle_by_scale),
+      std::hypot(lens.sigma_aspect, slide * options.slide_aspect_share * lens.aspect),
+      std::hypot(lens.sigma_shift_x, slide * options.shift),
+      std::hypot(lens.sigma_shift_y, slide * options.shift), lens.sigma_k1;
+  const auto free_at_least = [&](CameraParameter parameter, double own) {
+    if (!IsNamed(options.free, parameter)) return;
+    double& sigma = sigmas[parameter - kRoll];
+    sigma = std::max(sigma, own);
+  };
+  free_at_least(kViewAngle, options.view_angle_share * lens.view_angle_deg);
+  free_at_least(kAspect, options.aspect_share * lens.aspect);
+  free_at_least(kShiftX, options.shift);
+  free_at_least(kShiftY, options.shift);
+  free_at_least(kK1, options.k1);
+  return sigmas;
+}
+
+// What a calibrated lens says takes the place of what the tag says of it.
+void TakeLens(const Lens& lens, CameraPrior& prior) {
+  prior.mean[kViewAngle] = lens.view_angle_deg;
+  prior.mean[kAspect] = lens.aspect;
+  prior.mean[kShiftX] = lens.shift_x;
+  prior.mean[kShiftY] = lens.shift_y;
+  prior.mean[kK1] = lens.k1;
+  prior.measured.k2 = lens.k2;
+  prior.measured.k3 = lens.k3;
+  prior.measured.p1 = lens.p1;
+  prior.measured.p2 = lens.p2;
+}
+
+void LockParameters(const std::vector<std::string>& names, CameraCovariance& covariance) {
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (!IsNamed(names, static_cast<CameraParameter>(i))) continue;
+    covariance.row(i).setZero();
+    covariance.col(i).setZero();
+  }
+}
+
+// A square root that allows locked parameters: of the correlations, so that units do not matter.
+void SetCovariance(const CameraCovariance& covariance, CameraPrior& prior) {
+  prior.sigmas = covariance.diagonal().cwiseSqrt();
+  CameraParameters inverse_sigmas = CameraParameters::Zero();
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (prior.sigmas[i] > 0) inverse_sigmas[i] = 1 / prior.sigmas[i];
+  }
+  const CameraCovariance correlation =
+      inverse_sigmas.asDiagonal() * covariance * inverse_sigmas.asDiagonal();
+  const SymmetricEigen eigen = DecomposeSymmetric(correlation);
+  prior.root =
+      prior.sigmas.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
 }  // namespace
@@ -103,107 +235,24 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
                             LengthUnit unit,
                             const std::optional<Lens>& lens,
                             const PriorOptions& options) {
-  const double units_per_metre = 1 / MetresPerUnit(unit);
-  const double distance = (tag.lookat_in_site - tag.position_in_site).norm();
-  const auto length_sigma = [&](const std::optional<double>& noted, double metres, double share) {
-    return noted.value_or(std::max(metres * units_per_metre, share * distance));
-  };
-  const TagSigmas noted_sigmas = SigmasThatHold(tag.sigmas, options.free);
-  const double position = length_sigma(
-      noted_sigmas.position, options.position_m.value_or(kPosition_m), options.position_share);
-  const double height =
-      length_sigma(noted_sigmas.height, options.height_m.value_or(kHeight_m), options.height_share);
-  const double lookat =
-      length_sigma(noted_sigmas.lookat, options.lookat_m.value_or(kLookat_m), options.lookat_share);
-
   CameraPrior prior;
   prior.measured = tag;
   prior.width_px = width_px;
   prior.height_px = height_px;
   prior.mean = ParametersFromTag(tag);
+  if (lens) TakeLens(*lens, prior);
+
+  const TagSigmas noted = SigmasThatHold(tag.sigmas, options.free);
+  const Eigen::Matrix<double, kNumPose, kNumMeasured> pose_root =
+      PoseByMeasured(tag) * SigmasOfMeasured(tag, noted, unit, options).asDiagonal();
+  LensAndSlideSigmas lens_and_slide = SigmasOfTag(tag, noted, options);
+  if (lens) lens_and_slide = SigmasOfLens(*lens, lens_and_slide[0], options);
+
   CameraCovariance covariance = CameraCovariance::Zero();
-
-  // Position and direction through the measured points: finite differences of the tag itself.
-  Eigen::Matrix<double, 5, 6> by_measured;
-  for (int column = 0; column < 6; ++column) {
-    const double step = 1e-5 * distance;
-    ViewTag ahead = tag;
-    ViewTag behind = tag;
-    (column < 3 ? ahead.position_in_site[column] : ahead.lookat_in_site[column - 3]) += step;
-    (column < 3 ? behind.position_in_site[column] : behind.lookat_in_site[column - 3]) -= step;
-    Eigen::Matrix<double, 5, 1> change =
-        (ParametersFromTag(ahead) - ParametersFromTag(behind)).head<5>();
-    change[kYaw] = std::remainder(change[kYaw], 360.0);
-    by_measured.col(column) = change / (2 * step);
-  }
-  Eigen::Matrix<double, 6, 1> measured_sigmas;
-  measured_sigmas << position, position, height, lookat, lookat, lookat;
-  const Eigen::Matrix<double, 5, 6> scaled = by_measured * measured_sigmas.asDiagonal();
-  covariance.topLeftCorner<5, 5>() = scaled * scaled.transpose();
-
-  double roll = noted_sigmas.roll_deg.value_or(options.roll_deg);
-  double view_angle =
-      noted_sigmas.view_angle_deg.value_or(options.view_angle_share * tag.view_angle_deg);
-  double aspect = noted_sigmas.aspect.value_or(options.aspect_share * tag.aspect);
-  double shift_x = noted_sigmas.shift.value_or(options.shift);
-  double shift_y = shift_x;
-  double k1 = noted_sigmas.k1.value_or(options.k1);
-  if (lens) {
-    prior.mean[kViewAngle] = lens->view_angle_deg;
-    prior.mean[kAspect] = lens->aspect;
-    prior.mean[kShiftX] = lens->shift_x;
-    prior.mean[kShiftY] = lens->shift_y;
-    prior.mean[kK1] = lens->k1;
-    prior.measured.k2 = lens->k2;
-    prior.measured.k3 = lens->k3;
-    prior.measured.p1 = lens->p1;
-    prior.measured.p2 = lens->p2;
-    // A scale error of the mount changes the tangent of half the view angle.
-    const double view_angle_by_scale =
-        DegreesFromRadians(std::sin(RadiansFromDegrees(lens->view_angle_deg)));
-    const double slide = options.digital ? 0 : 1;
-    view_angle = std::hypot(lens->sigma_view_angle_deg,
-                            slide * options.slide_scale_share * view_angle_by_scale);
-    aspect = std::hypot(lens->sigma_aspect, slide * options.slide_aspect_share * lens->aspect);
-    shift_x = std::hypot(lens->sigma_shift_x, slide * options.shift);
-    shift_y = std::hypot(lens->sigma_shift_y, slide * options.shift);
-    k1 = lens->sigma_k1;
-    const auto free_at_least = [&](const char* name, double own, double& sigma) {
-      const bool is_shift = std::string_view(name).starts_with("shift");
-      if (Contains(options.free, name) || (is_shift && Contains(options.free, "shift"))) {
-        sigma = std::max(sigma, own);
-      }
-    };
-    free_at_least("v", options.view_angle_share * lens->view_angle_deg, view_angle);
-    free_at_least("a", options.aspect_share * lens->aspect, aspect);
-    free_at_least("shift_x", options.shift, shift_x);
-    free_at_least("shift_y", options.shift, shift_y);
-    free_at_least("k1", options.k1, k1);
-  }
-  const double independent[6] = {roll, view_angle, aspect, shift_x, shift_y, k1};
-  for (int i = 0; i < 6; ++i) covariance(kRoll + i, kRoll + i) = independent[i] * independent[i];
-
-  for (const std::string& name : options.lock) {
-    for (int i = 0; i < kNumCameraParameters; ++i) {
-      const bool named =
-          kCameraParameterNames[i] == name || (name == "shift" && (i == kShiftX || i == kShiftY));
-      if (!named) continue;
-      covariance.row(i).setZero();
-      covariance.col(i).setZero();
-    }
-  }
-
-  // A square root that allows locked parameters: of the correlations, so that units do not matter.
-  prior.sigmas = covariance.diagonal().cwiseSqrt();
-  CameraParameters inverse_sigmas = CameraParameters::Zero();
-  for (int i = 0; i < kNumCameraParameters; ++i) {
-    if (prior.sigmas[i] > 0) inverse_sigmas[i] = 1 / prior.sigmas[i];
-  }
-  const CameraCovariance correlation =
-      inverse_sigmas.asDiagonal() * covariance * inverse_sigmas.asDiagonal();
-  const SymmetricEigen eigen = DecomposeSymmetric(correlation);
-  prior.root =
-      prior.sigmas.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal();
+  covariance.topLeftCorner<kNumPose, kNumPose>() = pose_root * pose_root.transpose();
+  covariance.diagonal().tail<kNumLensAndSlide>() = lens_and_slide.cwiseAbs2();
+  LockParameters(options.lock, covariance);
+  SetCovariance(covariance, prior);
   return prior;
 }
 

@@ -57,9 +57,8 @@ double ControlPointNats(const std::vector<ControlPoint>& points,
                         const ParameterProjection& projection) {
   double nats = 0;
   for (const ControlPoint& point : points) {
-    const auto projected = projection.Project(point.point_in_world);
-    const double sigmas =
-        projected ? (projected->image_px - point.image_px).norm() / point.sigma_px : 1000;
+    const auto seen_px = projection.ImageOf(point.point_in_world);
+    const double sigmas = seen_px ? (*seen_px - point.image_px).norm() / point.sigma_px : 1000;
     nats -= 0.5 * sigmas * sigmas;
   }
   return nats;

@@ -10,10 +10,10 @@ double MeanDisplacementPx(const std::vector<Eigen::Vector3d>& points_in_world,
   double sum = 0;
   int count = 0;
   for (const Eigen::Vector3d& point : points_in_world) {
-    const auto a = one.Project(point);
-    const auto b = other.Project(point);
+    const auto a = one.ImageOf(point);
+    const auto b = other.ImageOf(point);
     if (!a || !b) continue;
-    sum += (a->image_px - b->image_px).norm();
+    sum += (*a - *b).norm();
     ++count;
   }
   return count ? sum / count : 0;

@@ -52,21 +52,35 @@ ParameterProjection::ParameterProjection(const CameraParameters& parameters,
   center_y_by_shift_ = aspect * height_px;
 }
 
+std::optional<Eigen::Vector2d> ParameterProjection::NormalisedFromCam(
+    const Eigen::Vector3d& point_in_cam) const {
+  if (!(point_in_cam.z() > 0)) return std::nullopt;
+  const Eigen::Vector2d normalised = point_in_cam.head<2>() * (1 / point_in_cam.z());
+  if (!IsBeforeFold(lens_, normalised)) return std::nullopt;
+  return normalised;
+}
+
+std::optional<Eigen::Vector2d> ParameterProjection::ImageOf(
+    const Eigen::Vector3d& point_in_world) const {
+  const auto normalised = NormalisedFromCam(rotation_ * (point_in_world - position_in_world_));
+  if (!normalised) return std::nullopt;
+  return ImageFromDistorted(Distort<double>(lens_, *normalised));
+}
+
 std::optional<ParameterProjection::Result> ParameterProjection::Project(
     const Eigen::Vector3d& point_in_world) const {
   const Eigen::Vector3d offset = point_in_world - position_in_world_;
   const Eigen::Vector3d in_cam = rotation_ * offset;
-  if (!(in_cam.z() > 0)) return std::nullopt;
+  const auto seen = NormalisedFromCam(in_cam);
+  if (!seen) return std::nullopt;
+  const Eigen::Vector2d& normalised = *seen;
   const double inverse_z = 1 / in_cam.z();
-  const double x = in_cam.x() * inverse_z;
-  const double y = in_cam.y() * inverse_z;
-  const Eigen::Vector2d normalised(x, y);
-  if (!IsBeforeFold(lens_, normalised)) return std::nullopt;
+  const double x = normalised.x();
+  const double y = normalised.y();
   const Eigen::Vector2d distorted = Distort<double>(lens_, normalised);
 
   Result result;
-  result.image_px = {focal_x_px_ * distorted.x() + center_x_px_,
-                     focal_y_px_ * distorted.y() + center_y_px_};
+  result.image_px = ImageFromDistorted(distorted);
   result.px_per_unit = focal_x_px_ * inverse_z;
 
   // d image / d (x, y), then d (x, y) / d point_in_cam.

@@ -15,6 +15,10 @@ namespace groundglass {
 //   point_in_cam = R(yaw, pitch, roll) (point - position),  (x, y) = point_in_cam.xy / z,
 //   (x', y') = Distort(x, y),  image = (f_x x' + c_x, f_y y' + c_y),
 // f, c from view angle, aspect and shift as docs/frames.md says. Units of CameraParameters.
+// What the lens does and its derivative are scene/camera_model.h's; pose, focal lengths and centre
+// have their chain of derivatives here. The same as one template over Eigen's AutoDiffScalar takes
+// 112 ns a point instead of 64, and `groundglass register` on two slides of brick 2.64 s of CPU
+// instead of 2.39 (medians of six, in turns).
 class ParameterProjection {
  public:
   // `lens` gives k2, k3, p1 and p2, which are not free.
@@ -23,6 +27,9 @@ class ParameterProjection {
                       int width_px,
                       int height_px);
 
+  // Pixels. Nothing for a point behind the camera, or beyond the distortion's fold.
+  std::optional<Eigen::Vector2d> ImageOf(const Eigen::Vector3d& point_in_world) const;
+
   struct Result {
     Eigen::Vector2d image_px;
     // d image_px / d parameters, px per parameter's own unit.
@@ -30,10 +37,16 @@ class ParameterProjection {
     // Pixels that one model unit across the line of sight spans there.
     double px_per_unit;
   };
-  // Nothing for a point behind the camera, or beyond the distortion's fold.
+  // The same with its derivatives, which take several times as long.
   std::optional<Result> Project(const Eigen::Vector3d& point_in_world) const;
 
  private:
+  // Before the lens; nothing where no lens shows the point.
+  std::optional<Eigen::Vector2d> NormalisedFromCam(const Eigen::Vector3d& point_in_cam) const;
+  Eigen::Vector2d ImageFromDistorted(const Eigen::Vector2d& distorted) const {
+    return {focal_x_px_ * distorted.x() + center_x_px_, focal_y_px_ * distorted.y() + center_y_px_};
+  }
+
   Eigen::Matrix3d rotation_;
   Eigen::Matrix3d rotation_by_yaw_;
   Eigen::Matrix3d rotation_by_pitch_;

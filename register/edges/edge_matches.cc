@@ -22,7 +22,7 @@ void MatchOptions::Check(const std::string& path) const {
   CheckFromTo(max_candidates, 1, 1000, path + "max_candidates");
   CheckFromTo(gate_deg, 0.1, 90, path + "gate_deg");
   CheckFromTo(outlier_share, 0.001, 0.999, path + "outlier_share");
-  CheckAbove(vote_length_px, 0, path + "vote_length_px");
+  CheckAbove(observation_length_px, 0, path + "observation_length_px");
 }
 
 std::vector<CandidateSample> FindCandidateSamples(const std::vector<EdgeSample>& samples,
@@ -81,8 +81,9 @@ SoftAssignment MatchCandidates(const CandidateSample& sample,
     offset_sum += weight * candidate.offset_px;
   }
   if (!(weight_sum > 1e-3 * likelihood)) return {};
-  const double votes = std::min(1.0, sample.sample.spacing_px / options.vote_length_px);
-  return {offset_sum / weight_sum, weight_sum / likelihood * votes / (width_px * width_px)};
+  const double observations =
+      std::min(1.0, sample.sample.spacing_px / options.observation_length_px);
+  return {offset_sum / weight_sum, weight_sum / likelihood * observations / (width_px * width_px)};
 }
 
 }  // namespace groundglass

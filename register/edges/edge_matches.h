@@ -20,7 +20,7 @@ struct MatchOptions {
   // Share of samples whose edge the photograph does not show.
   double outlier_share = 0.15;
   // Edge that counts as one independent observation.
-  double vote_length_px = 20;
+  double observation_length_px = 20;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "match options: ") const;

@@ -73,10 +73,10 @@ std::vector<ProjectedSample> ProjectSamples(const std::vector<EdgeSample>& sampl
     const auto here = projection.Project(sample.point_in_world);
     if (!here) continue;
     // A step along the edge of about a pixel gives its direction in the image.
-    const auto there =
-        projection.Project(sample.point_in_world + sample.direction_in_world / here->px_per_unit);
-    if (!there) continue;
-    const Eigen::Vector2d along = there->image_px - here->image_px;
+    const auto there_px =
+        projection.ImageOf(sample.point_in_world + sample.direction_in_world / here->px_per_unit);
+    if (!there_px) continue;
+    const Eigen::Vector2d along = *there_px - here->image_px;
     const double length = along.norm();
     if (!(length > 1e-3)) continue;  // seen end on
     projected[i].is_valid = true;

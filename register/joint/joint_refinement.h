@@ -25,11 +25,11 @@ struct AlignedPhotograph {
   CameraParameters whitened = CameraParameters::Zero();
   double noise_px = 1;  // spread of the matched residuals, within the bounds that are believed
   // For scoring the camera that comes out: where the samples are seen, and how much the best
-  // solution elsewhere scores in all, and how far away it lies; no rival: nothing.
+  // solution elsewhere scores in all, and how far away it lies; none: nothing.
   std::vector<ScoreSample> score_samples = {};
-  std::optional<double> rival_nats = {};
-  CameraParameters rival_whitened = CameraParameters::Zero();
-  double rival_distance_px = 0;  // of the photograph itself
+  std::optional<double> second_best_nats = {};
+  CameraParameters second_best_whitened = CameraParameters::Zero();
+  double second_best_distance_px = 0;  // of the photograph itself
 };
 
 // How far a model edge was found from where the model has it.

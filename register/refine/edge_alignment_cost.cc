@@ -29,11 +29,12 @@ bool EdgeAlignmentCost::Evaluate(double const* const* parameters,
       with_jacobian ? jacobians[0] : nullptr, with_jacobian ? count : 0, kNumCameraParameters);
   for (Eigen::Index i = 0; i < count; ++i) {
     const AlignedSample& sample = samples_[i];
-    const auto projected = projection.Project(sample.point_in_world);
-    if (!projected) return false;
+    const auto image_px = projection.ImageOf(sample.point_in_world);
+    if (!image_px) return false;
     const double weight = std::sqrt(sample.precision);
-    r[i] = weight * (sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px);
+    r[i] = weight * (sample.normal.dot(*image_px - sample.origin_px) - sample.offset_px);
     if (with_jacobian) {
+      const auto projected = projection.Project(sample.point_in_world);
       by_whitened.row(i) = weight * (sample.normal.transpose() * projected->jacobian) * prior_.root;
     }
   }

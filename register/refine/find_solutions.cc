@@ -36,7 +36,7 @@ class SolutionSearch {
     refine_options_.start_sigmas =
         std::min(refine_options_.start_sigmas, UncertaintyRatio(posterior_, prior_, samples));
     if (options_.hypotheses.max_starts == 0) {
-      RefineAndScore(posterior_.offset);
+      RefineAndScore({posterior_.offset, 0});
       return std::move(solutions_);
     }
     SearchPrior(samples);
@@ -59,10 +59,11 @@ class SolutionSearch {
     return samples.size() >= static_cast<size_t>(options_.min_samples);
   }
 
-  void RefineAndScore(const CameraParameters& whitened) {
+  void RefineAndScore(const Hypothesis& start) {
     Solution solution;
-    solution.refinement =
-        options_.stages.refine(whitened, edge_model_, evidence_, prior_, refine_options_, points_);
+    solution.start = start;
+    solution.refinement = options_.stages.refine(
+        start.whitened, edge_model_, evidence_, prior_, refine_options_, points_);
     const ParameterProjection projection = prior_.ProjectionAt(solution.refinement.whitened);
     solution.score =
         options_.stages.score(solution.refinement.samples, projection, evidence_, options_.score);
@@ -73,7 +74,7 @@ class SolutionSearch {
   void SearchPrior(const std::vector<EdgeSample>& samples) {
     for (const Hypothesis& hypothesis : options_.stages.find_hypotheses(
              samples, posterior_.prior, evidence_, options_.hypotheses)) {
-      RefineAndScore(posterior_.offset + posterior_.map * hypothesis.whitened);
+      RefineAndScore({posterior_.offset + posterior_.map * hypothesis.whitened, hypothesis.score});
     }
     SortBestFirst();
   }
@@ -84,7 +85,8 @@ class SolutionSearch {
     double reach = 1;
     for (int round = 1; round < options_.hypotheses.max_rounds; ++round) {
       const AlignmentScore& best = solutions_.front().score;
-      if (best.nats >= options_.hypotheses.again_below_nats_per_vote * best.votes) break;
+      if (best.nats >= options_.hypotheses.again_below_nats_per_observation * best.observations)
+        break;
       reach /= 2;
       for (const CameraParameters& centre : BestCentres()) {
         CameraPrior about = posterior_.prior;
@@ -94,7 +96,8 @@ class SolutionSearch {
         if (!IsEnough(samples)) continue;
         for (const Hypothesis& hypothesis :
              options_.stages.find_hypotheses(samples, about, evidence_, options_.hypotheses)) {
-          RefineAndScore(centre + reach * (posterior_.map * hypothesis.whitened));
+          RefineAndScore(
+              {centre + reach * (posterior_.map * hypothesis.whitened), hypothesis.score});
         }
       }
       SortBestFirst();
@@ -134,7 +137,7 @@ void SolutionOptions::Check(const std::string& path) const {
   CheckFromTo(search_frame_share, 0, 1, path + "search_frame_share");
   CheckAbove(search_spacing_px, 0, path + "search_spacing_px");
   CheckAtLeast(min_samples, 1, path + "min_samples");
-  CheckAtLeast(rival_distance_px, 0, path + "rival_distance_px");
+  CheckAtLeast(distinct_distance_px, 0, path + "distinct_distance_px");
 }
 
 std::vector<Solution> FindSolutions(const EdgeModel& edge_model,
@@ -145,16 +148,16 @@ std::vector<Solution> FindSolutions(const EdgeModel& edge_model,
   return SolutionSearch(edge_model, evidence, prior, points, options).Run();
 }
 
-Rival FindRival(const std::vector<Solution>& solutions,
-                const CameraPrior& prior,
-                const SolutionOptions& options) {
+SecondBest FindSecondBest(const std::vector<Solution>& solutions,
+                          const CameraPrior& prior,
+                          const SolutionOptions& options) {
   const Refinement& best = solutions.front().refinement;
   const std::vector<Eigen::Vector3d> points_in_world = PointsOf(best.samples);
   const ParameterProjection projection = prior.ProjectionAt(best.whitened);
   for (const Solution& solution : solutions) {
     const double distance_px = MeanDisplacementPx(
         points_in_world, projection, prior.ProjectionAt(solution.refinement.whitened));
-    if (distance_px > options.rival_distance_px * prior.width_px / 1200.0) {
+    if (distance_px > options.distinct_distance_px * prior.width_px / 1200.0) {
       return {&solution, distance_px};
     }
   }

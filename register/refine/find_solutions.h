@@ -49,7 +49,7 @@ struct SolutionOptions {
   // Fewer samples than this are no view of the model.
   int min_samples = 10;
   // A solution this far from the best one is another solution, px at a width of 1200.
-  double rival_distance_px = 2.5;
+  double distinct_distance_px = 2.5;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "solution options: ") const;
@@ -57,6 +57,7 @@ struct SolutionOptions {
 
 // One refined start with its score.
 struct Solution {
+  Hypothesis start;  // in the whitened parameters of the prior from the tag
   Refinement refinement;
   AlignmentScore score;
   double control_point_nats = 0;  // log density of what a person pointed at, 0 without
@@ -78,12 +79,12 @@ std::vector<Solution> FindSolutions(const EdgeModel& edge_model,
 
 // The best of the solutions that lie elsewhere than the first, with how far away it lies on
 // average where the first sees edges, in pixels of the prior's picture; null if there is none.
-struct Rival {
+struct SecondBest {
   const Solution* solution = nullptr;
   double distance_px = 0;
 };
-Rival FindRival(const std::vector<Solution>& solutions,
-                const CameraPrior& prior,
-                const SolutionOptions& options);
+SecondBest FindSecondBest(const std::vector<Solution>& solutions,
+                          const CameraPrior& prior,
+                          const SolutionOptions& options);
 
 }  // namespace groundglass

@@ -57,11 +57,10 @@ std::optional<ResidualSpread> SpreadOf(const std::vector<AlignedSample>& aligned
   const ParameterProjection projection = prior.ProjectionAt(whitened);
   std::vector<WeightedValue> residuals;
   for (const AlignedSample& sample : aligned) {
-    const auto projected = projection.Project(sample.point_in_world);
-    if (!projected) continue;
+    const auto image_px = projection.ImageOf(sample.point_in_world);
+    if (!image_px) continue;
     residuals.push_back(
-        {sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px,
-         sample.precision});
+        {sample.normal.dot(*image_px - sample.origin_px) - sample.offset_px, sample.precision});
   }
   if (residuals.empty()) return std::nullopt;
   return MeasureSpread(std::move(residuals));
@@ -79,6 +78,7 @@ Step Solve(const std::vector<AlignedSample>& aligned,
            const std::vector<ControlPoint>& points,
            const CameraPrior& prior,
            int max_iterations,
+           double function_tolerance,
            const CameraParameters& start,
            bool with_covariance) {
   Step step;
@@ -98,7 +98,7 @@ Step Solve(const std::vector<AlignedSample>& aligned,
   options.max_num_iterations = max_iterations;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
-  options.function_tolerance = 1e-8;
+  options.function_tolerance = function_tolerance;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   step.has_solution = summary.IsSolutionUsable() && whitened.allFinite();
@@ -117,6 +117,42 @@ Step Solve(const std::vector<AlignedSample>& aligned,
   return step;
 }
 
+// How far the prior lets the sample move that it lets move farthest, one sigma, px.
+double WidestPriorPx(const std::vector<EdgeSample>& samples,
+                     const CameraPrior& prior,
+                     const CameraParameters& whitened) {
+  double widest_px = 0;
+  for (const ProjectedSample& sample : ProjectSamples(samples, prior.ProjectionAt(whitened))) {
+    if (sample.is_valid) widest_px = std::max(widest_px, (sample.jacobian * prior.root).norm());
+  }
+  return widest_px;
+}
+
+// How certain the solution of the last step is, and whether it has settled since the step before.
+void Conclude(const Step& step,
+              const std::vector<AlignedSample>& aligned,
+              const CameraPrior& prior,
+              const CameraParameters& before,
+              const RefineOptions& options,
+              Refinement& refinement) {
+  using Outcome = Refinement::Outcome;
+  if (!step.has_solution) {
+    refinement.outcome = Outcome::kNoSolution;
+    return;
+  }
+  if (!step.covariance) {
+    refinement.outcome = Outcome::kNoCovariance;
+    return;
+  }
+  refinement.covariance =
+      *step.covariance +
+      SystematicCovariance(aligned, prior, refinement.whitened, *step.covariance);
+  const double settled_squared = options.settled_sigmas * options.settled_sigmas;
+  const bool is_settled = (refinement.whitened - before).squaredNorm() <
+                          settled_squared * refinement.covariance.trace() + 1e-6;
+  refinement.outcome = is_settled ? Outcome::kConverged : Outcome::kNotSettled;
+}
+
 }  // namespace
 
 void RefineOptions::Check(const std::string& path) const {
@@ -125,7 +161,14 @@ void RefineOptions::Check(const std::string& path) const {
   CheckFromTo(spacing_px, 0.1, 1000, path + "spacing_px");
   matching.Check(path + "matching.");
   bias.Check(path + "bias.");
+  CheckAtLeast(border_px, 0, path + "border_px");
   CheckFromTo(min_noise_px, 1e-6, matching.final_range_px / 2, path + "min_noise_px");
+  CheckAtLeast(min_matched, 1, path + "min_matched");
+  CheckFromTo(num_final_steps, 1, 100, path + "num_final_steps");
+  CheckFromTo(annealing_iterations, 1, 1000, path + "annealing_iterations");
+  CheckFromTo(final_iterations, 1, 1000, path + "final_iterations");
+  CheckFromTo(function_tolerance, 0, 1, path + "function_tolerance");
+  CheckAbove(settled_sigmas, 0, path + "settled_sigmas");
 }
 
 Refinement RefinePhotograph(const CameraParameters& start,
@@ -134,27 +177,15 @@ Refinement RefinePhotograph(const CameraParameters& start,
                             const CameraPrior& prior,
                             const RefineOptions& options,
                             const std::vector<ControlPoint>& points) {
-  // Steps at the final range: the mixture settles in a few.
-  constexpr int kFinalSteps = 3;
-
   Refinement refinement;
   refinement.whitened = start;
   const auto sample_edges = [&] {
-    refinement.samples =
-        SampleVisibleEdges(edge_model, prior.CameraAt(refinement.whitened), -3, options.spacing_px);
+    refinement.samples = SampleVisibleEdges(
+        edge_model, prior.CameraAt(refinement.whitened), -options.border_px, options.spacing_px);
   };
   sample_edges();
 
-  double widest_prior_px = 0;
-  {
-    const ParameterProjection projection = prior.ProjectionAt(start);
-    for (const ProjectedSample& sample : ProjectSamples(refinement.samples, projection)) {
-      if (sample.is_valid) {
-        widest_prior_px = std::max(widest_prior_px, (sample.jacobian * prior.root).norm());
-      }
-    }
-  }
-
+  const double widest_prior_px = WidestPriorPx(refinement.samples, prior, start);
   Annealing annealing{options.start_sigmas, 1};
   std::vector<AlignedSample> aligned;
   Step step;
@@ -166,23 +197,30 @@ Refinement RefinePhotograph(const CameraParameters& start,
                            edge_model.sigma,
                            annealing,
                            options);
-    if (aligned.size() < 8) return false;
-    step = Solve(aligned, points, prior, max_iterations, refinement.whitened, with_covariance);
+    if (aligned.size() < static_cast<size_t>(options.min_matched)) return false;
+    step = Solve(aligned,
+                 points,
+                 prior,
+                 max_iterations,
+                 options.function_tolerance,
+                 refinement.whitened,
+                 with_covariance);
     refinement.whitened = step.whitened;
     return true;
   };
 
   while (3 * annealing.range_sigmas * widest_prior_px > options.matching.final_range_px) {
-    if (!match_and_solve(3, false)) return refinement;
+    if (!match_and_solve(options.annealing_iterations, false)) return refinement;
     annealing.range_sigmas *= options.shrink;
   }
   // What is visible may have changed on the way.
   sample_edges();
   annealing.range_sigmas = 0;
   CameraParameters before = refinement.whitened;
-  for (int number = 1; number <= kFinalSteps; ++number) {
+  for (int number = 1; number <= options.num_final_steps; ++number) {
     before = refinement.whitened;
-    if (!match_and_solve(5, number == kFinalSteps)) return refinement;
+    const bool is_last = number == options.num_final_steps;
+    if (!match_and_solve(options.final_iterations, is_last)) return refinement;
     refinement.spread = SpreadOf(aligned, prior, refinement.whitened);
     annealing.noise_px = std::clamp(refinement.spread ? refinement.spread->robust_sigma_px : 1,
                                     options.min_noise_px,
@@ -190,22 +228,7 @@ Refinement RefinePhotograph(const CameraParameters& start,
   }
   refinement.noise_px = annealing.noise_px;
   refinement.num_matched = static_cast<int>(aligned.size());
-  if (!step.has_solution) {
-    refinement.outcome = Refinement::Outcome::kNoSolution;
-    return refinement;
-  }
-  if (!step.covariance) {
-    refinement.outcome = Refinement::Outcome::kNoCovariance;
-    return refinement;
-  }
-  refinement.covariance =
-      *step.covariance +
-      SystematicCovariance(aligned, prior, refinement.whitened, *step.covariance);
-  // Between the last two steps a settled solution moves by less than its own uncertainty.
-  const bool is_settled =
-      (refinement.whitened - before).squaredNorm() < 0.25 * refinement.covariance.trace() + 1e-6;
-  refinement.outcome =
-      is_settled ? Refinement::Outcome::kConverged : Refinement::Outcome::kNotSettled;
+  Conclude(step, aligned, prior, before, options, refinement);
   return refinement;
 }
 

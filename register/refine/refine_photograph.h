@@ -21,12 +21,24 @@ struct RefineOptions {
   // step, down to matching.final_range_px.
   double start_sigmas = 0.25;
   double shrink = 0.6;
-  // How dense the edges are sampled.
+  // How dense the edges are sampled, and how far from the frame's border they stay.
   double spacing_px = 4;
+  double border_px = 3;
   MatchOptions matching;
   EdgeBias bias;
   // The least noise of an edge's position that is believed, px.
   double min_noise_px = 0.3;
+  // Fewer matched samples than this say nothing.
+  int min_matched = 8;
+  // Steps at the final range: the mixture settles in a few. The solver's iterations in a step of
+  // the annealing, and in one of these; and the relative change of its cost at which it stops.
+  int num_final_steps = 3;
+  int annealing_iterations = 3;
+  int final_iterations = 5;
+  double function_tolerance = 1e-8;
+  // Between the last two steps a settled solution moves by less than this share of its own
+  // uncertainty.
+  double settled_sigmas = 0.5;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "refine options: ") const;
@@ -40,7 +52,7 @@ struct Refinement {
     kNotSettled,    // the last steps still moved it
     kNoCovariance,  // a camera, but how certain it is could not be computed
     kNoSolution,    // the solver found none in the last step
-    kTooFewEdges,   // hardly a sample was matched
+    kTooFewEdges,   // fewer than min_matched samples were matched
   };
   Outcome outcome = Outcome::kTooFewEdges;
   CameraParameters whitened = CameraParameters::Zero();

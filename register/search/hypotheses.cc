@@ -14,14 +14,10 @@
 namespace groundglass {
 namespace {
 
-constexpr int kNumBins = 8;
-// Edges within this length of one another tell the same story.
-constexpr double kVoteLengthPx = 20;
-
-int BinOfNormal(const Eigen::Vector2d& normal) {
+int BinOfNormal(const Eigen::Vector2d& normal, int num_bins) {
   double angle = std::atan2(normal.y(), normal.x());
   if (angle < 0) angle += std::numbers::pi;
-  return static_cast<int>(std::lround(angle / std::numbers::pi * kNumBins)) % kNumBins;
+  return static_cast<int>(std::lround(angle / std::numbers::pi * num_bins)) % num_bins;
 }
 
 // For each orientation, log(1 - s + s m / mean m), s the share of an edge that is shown: m is how
@@ -31,13 +27,14 @@ class ScoreMaps {
  public:
   ScoreMaps(const EdgeEvidence::Level& level, double blur_cells, const HypothesisOptions& options)
       : scale_(level.scale) {
+    const int num_bins = options.num_orientations;
     const auto shown = static_cast<float>(options.shown_share);
     const auto weakest = static_cast<float>(options.min_gradient);
     const auto half = static_cast<float>(options.half_weight_gradient);
     const ImageF& gradient = level.gradient;
     width_ = gradient.width;
     height_ = gradient.height;
-    std::vector<cv::Mat> maps(kNumBins);
+    std::vector<cv::Mat> maps(num_bins);
     for (cv::Mat& map : maps) map = cv::Mat::zeros(height_, width_, CV_32F);
     for (int y = 1; y + 1 < height_; ++y) {
       for (int x = 1; x + 1 < width_; ++x) {
@@ -47,15 +44,15 @@ class ScoreMaps {
         const float weight = magnitude / (magnitude + half);
         double angle = std::atan2(g[1], g[0]);
         if (angle < 0) angle += std::numbers::pi;
-        const double position = angle / std::numbers::pi * kNumBins;
-        const int low = static_cast<int>(position) % kNumBins;
+        const double position = angle / std::numbers::pi * num_bins;
+        const int low = static_cast<int>(position) % num_bins;
         const auto fraction = static_cast<float>(position - std::floor(position));
         maps[low].at<float>(y, x) += weight * (1 - fraction);
-        maps[(low + 1) % kNumBins].at<float>(y, x) += weight * fraction;
+        maps[(low + 1) % num_bins].at<float>(y, x) += weight * fraction;
       }
     }
-    values_.resize(static_cast<size_t>(kNumBins) * width_ * height_);
-    for (int bin = 0; bin < kNumBins; ++bin) {
+    values_.resize(static_cast<size_t>(num_bins) * width_ * height_);
+    for (int bin = 0; bin < num_bins; ++bin) {
       cv::Mat soft;
       cv::GaussianBlur(maps[bin], soft, {0, 0}, blur_cells, blur_cells, cv::BORDER_REPLICATE);
       const double mean = std::max(1e-6, cv::mean(soft)[0]);
@@ -88,7 +85,7 @@ class ScoreMaps {
 struct LinearSamples {
   std::vector<Eigen::Vector2d> image_px;
   std::vector<int> bins;
-  std::vector<float> votes;
+  std::vector<float> observations;
   // 2N x 11: displacement in px for one standard deviation of each leading direction.
   Eigen::Matrix<double, Eigen::Dynamic, kNumCameraParameters> moves;
   // How far a loose model's edges may lie off, one sigma, root mean square, px.
@@ -99,7 +96,9 @@ struct LinearSamples {
   CameraCovariance directions;
 };
 
-LinearSamples Linearise(const std::vector<EdgeSample>& samples, const CameraPrior& prior) {
+LinearSamples Linearise(const std::vector<EdgeSample>& samples,
+                        const CameraPrior& prior,
+                        const HypothesisOptions& options) {
   const ParameterProjection projection = prior.ProjectionAt(CameraParameters::Zero());
   LinearSamples linear;
   std::vector<Eigen::Matrix<double, 2, kNumCameraParameters>> by_whitened;
@@ -110,8 +109,9 @@ LinearSamples Linearise(const std::vector<EdgeSample>& samples, const CameraPrio
     if (!projected.is_valid) continue;
     const auto full = projection.Project(sample.point_in_world);
     linear.image_px.push_back(projected.image_px);
-    linear.bins.push_back(BinOfNormal(projected.normal));
-    linear.votes.push_back(static_cast<float>(sample.spacing_px / kVoteLengthPx));
+    linear.bins.push_back(BinOfNormal(projected.normal, options.num_orientations));
+    linear.observations.push_back(
+        static_cast<float>(sample.spacing_px / options.observation_length_px));
     by_whitened.push_back(full->jacobian * prior.root);
     loose_sum += std::pow(sample.looseness * projected.px_per_unit, 2);
     const Eigen::Matrix<double, 1, kNumCameraParameters> across =
@@ -144,7 +144,7 @@ double ScoreAt(const LinearSamples& linear, const ScoreMaps& maps, const CameraP
       x += linear.moves(2 * static_cast<Eigen::Index>(i), k) * c[k];
       y += linear.moves(2 * static_cast<Eigen::Index>(i) + 1, k) * c[k];
     }
-    score += linear.votes[i] * maps.At(linear.bins[i], x, y);
+    score += linear.observations[i] * maps.At(linear.bins[i], x, y);
   }
   return score;
 }
@@ -154,7 +154,7 @@ double ScoreAt(const LinearSamples& linear, const ScoreMaps& maps, const CameraP
 std::vector<CameraParameters> MakeGrid(const LinearSamples& linear,
                                        double step_px,
                                        const HypothesisOptions& options) {
-  for (;; step_px *= 1.15) {
+  for (;; step_px *= options.step_growth) {
     std::vector<CameraParameters> grid = {CameraParameters::Zero()};
     bool too_many = false;
     for (int k = 0; k < kNumCameraParameters && !too_many; ++k) {
@@ -166,7 +166,7 @@ std::vector<CameraParameters> MakeGrid(const LinearSamples& linear,
         for (int i = -steps; i <= steps; ++i) {
           CameraParameters moved = point;
           moved[k] = i * step_px / linear.rms_px[k];
-          if (moved.norm() > options.reach_sigmas * 1.1) continue;
+          if (moved.norm() > options.reach_sigmas * options.corner_reach) continue;
           wider.push_back(moved);
         }
       }
@@ -210,13 +210,17 @@ std::vector<ScoredPoint> KeepDistinct(const LinearSamples& linear,
 }
 
 // Coordinate ascent over the leading directions with halving steps.
-void Climb(const LinearSamples& linear, const ScoreMaps& maps, double step_px, ScoredPoint& point) {
+void Climb(const LinearSamples& linear,
+           const ScoreMaps& maps,
+           double step_px,
+           const HypothesisOptions& options,
+           ScoredPoint& point) {
   point.score = ScoreAt(linear, maps, point.coefficients);
-  for (; step_px > 0.4 * maps.scale(); step_px /= 2) {
-    for (int round = 0; round < 3; ++round) {
+  for (; step_px > options.least_climb_step_cells * maps.scale(); step_px /= 2) {
+    for (int round = 0; round < options.climb_rounds; ++round) {
       bool improved = false;
       for (int k = 0; k < kNumCameraParameters; ++k) {
-        if (linear.rms_px[k] * 3 < step_px) continue;
+        if (linear.rms_px[k] * options.climb_reach_sigmas < step_px) continue;
         for (const double sign : {-1.0, 1.0}) {
           ScoredPoint moved = point;
           moved.coefficients[k] += sign * step_px / linear.rms_px[k];
@@ -241,9 +245,20 @@ void HypothesisOptions::Check(const std::string& path) const {
   CheckFromTo(max_grid_points, 1, 100000000, path + "max_grid_points");
   CheckFromTo(max_starts, 0, 1000, path + "max_starts");
   CheckFromTo(distinct_cells, 0, 100, path + "distinct_cells");
-  CheckAtLeast(again_below_nats_per_vote, 0, path + "again_below_nats_per_vote");
+  CheckAtLeast(again_below_nats_per_observation, 0, path + "again_below_nats_per_observation");
   CheckFromTo(max_rounds, 1, 20, path + "max_rounds");
   CheckFromTo(num_centres, 1, 1000, path + "num_centres");
+  CheckAbove(observation_length_px, 0, path + "observation_length_px");
+  CheckFromTo(num_orientations, 1, 180, path + "num_orientations");
+  CheckAbove(grid_blur_steps, 0, path + "grid_blur_steps");
+  CheckAbove(climb_blur_cells, 0, path + "climb_blur_cells");
+  CheckFromTo(step_growth, 1.01, 10, path + "step_growth");
+  CheckFromTo(corner_reach, 1, 10, path + "corner_reach");
+  CheckAtLeast(climb_distinct_steps, 0, path + "climb_distinct_steps");
+  CheckFromTo(climbs_per_start, 1, 1000, path + "climbs_per_start");
+  CheckFromTo(least_climb_step_cells, 0.001, 100, path + "least_climb_step_cells");
+  CheckFromTo(climb_rounds, 1, 1000, path + "climb_rounds");
+  CheckAbove(climb_reach_sigmas, 0, path + "climb_reach_sigmas");
   CheckFromTo(shown_share, 0.01, 0.99, path + "shown_share");
   CheckAtLeast(min_gradient, 0, path + "min_gradient");
   CheckAbove(half_weight_gradient, 0, path + "half_weight_gradient");
@@ -253,12 +268,13 @@ std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
                                        const CameraPrior& prior,
                                        const EdgeEvidence& evidence,
                                        const HypothesisOptions& options) {
-  const LinearSamples linear = Linearise(samples, prior);
+  const LinearSamples linear = Linearise(samples, prior, options);
   const double px_per_cell = static_cast<double>(prior.width_px) / options.width_cells;
   const EdgeEvidence::Level& level = evidence.AtScale(px_per_cell * 1.01);
   const double loose_cells = linear.loose_px / level.scale;
-  const ScoreMaps coarse(level, std::hypot(options.step_cells / 1.5, loose_cells), options);
-  const ScoreMaps fine(level, std::hypot(1.0, loose_cells), options);
+  const ScoreMaps coarse(
+      level, std::hypot(options.step_cells * options.grid_blur_steps, loose_cells), options);
+  const ScoreMaps fine(level, std::hypot(options.climb_blur_cells, loose_cells), options);
 
   std::vector<ScoredPoint> points;
   for (const CameraParameters& coefficients :
@@ -266,8 +282,11 @@ std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
     points.push_back({coefficients, ScoreAt(linear, coarse, coefficients)});
   }
   const double step_px = options.step_cells * coarse.scale();
-  points = KeepDistinct(linear, std::move(points), 1.2 * step_px, 6 * options.max_starts);
-  for (ScoredPoint& point : points) Climb(linear, fine, step_px / 2, point);
+  points = KeepDistinct(linear,
+                        std::move(points),
+                        options.climb_distinct_steps * step_px,
+                        static_cast<size_t>(options.climbs_per_start) * options.max_starts);
+  for (ScoredPoint& point : points) Climb(linear, fine, step_px / 2, options, point);
   points = KeepDistinct(linear,
                         std::move(points),
                         options.distinct_cells * fine.scale(),
@@ -277,6 +296,8 @@ std::vector<Hypothesis> FindHypotheses(const std::vector<EdgeSample>& samples,
   for (const ScoredPoint& point : points) {
     hypotheses.push_back({linear.directions * point.coefficients, point.score});
   }
+  // Where the tag is a peak of the score, it is among them already.
+  std::erase_if(hypotheses, [](const Hypothesis& one) { return one.whitened.isZero(0); });
   hypotheses.push_back({CameraParameters::Zero(), ScoreAt(linear, fine, CameraParameters::Zero())});
   return hypotheses;
 }

@@ -26,11 +26,30 @@ struct HypothesisOptions {
   double distinct_cells = 1.5;
   // The search moves the edges linearly, and moves those that its centre sees. Where the prior is
   // so wide that their true paths bend by more than a step of the grid, and the best solution
-  // scores below this for each vote that was cast, the search begins anew about the best solutions,
-  // with half the reach each time.
-  double again_below_nats_per_vote = 0.5;
+  // scores below this for each independent observation, the search begins anew about the best
+  // solutions, with half the reach each time.
+  double again_below_nats_per_observation = 0.5;
   int max_rounds = 4;
   int num_centres = 3;
+  // Edge that counts as one independent observation.
+  double observation_length_px = 20;
+  // The maps of the photograph's edges: how many orientations they tell apart, and how far an edge
+  // is spread in them, one standard deviation, for the grid (in its steps) and for the climb.
+  int num_orientations = 8;
+  double grid_blur_steps = 1 / 1.5;
+  double climb_blur_cells = 1;
+  // Where the grid has too many points its steps grow by this factor until it fits. Its corners
+  // may lie this much farther out than reach_sigmas.
+  double step_growth = 1.15;
+  double corner_reach = 1.1;
+  // The best points of the grid that lie this many steps apart climb, this many for each start.
+  double climb_distinct_steps = 1.2;
+  int climbs_per_start = 6;
+  // Steps of the climb are halved down to this, with so many rounds each; a direction that moves
+  // the edges by less than a step within so many standard deviations is left alone.
+  double least_climb_step_cells = 0.4;
+  int climb_rounds = 3;
+  double climb_reach_sigmas = 3;
   // Share of a model edge that the photograph shows.
   double shown_share = 0.65;
   // Gradients weaker than this are noise, and one of the second counts half; in units of the

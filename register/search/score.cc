@@ -37,7 +37,7 @@ double NatsAt(double shift,
     const double x = nearest / options.noise_px;
     const double right =
         std::exp(-0.5 * x * x) / (options.noise_px * std::sqrt(2 * std::numbers::pi));
-    sum += here.sample->votes *
+    sum += here.sample->observations *
            std::log(1 - options.shown_share + options.shown_share * right / density);
   }
   return sum;
@@ -76,7 +76,7 @@ double NatsOfEdge(bool is_positive,
 void ScoreOptions::Check(const std::string& path) const {
   CheckAbove(noise_px, 0, path + "noise_px");
   CheckAbove(clutter_range_px, 0, path + "clutter_range_px");
-  CheckAbove(vote_length_px, 0, path + "vote_length_px");
+  CheckAbove(observation_length_px, 0, path + "observation_length_px");
   CheckFromTo(gate_deg, 0.1, 90, path + "gate_deg");
   CheckFromTo(shown_share, 0.01, 0.99, path + "shown_share");
   CheckAtLeast(max_candidates, 1, path + "max_candidates");
@@ -96,7 +96,7 @@ std::vector<ScoreSample> FindScoreSamples(const std::vector<EdgeSample>& samples
     const double range_px = std::hypot(options.clutter_range_px, 3 * loose_px);
     found.push_back({samples[i].point_in_world,
                      samples[i].edge,
-                     samples[i].spacing_px / options.vote_length_px,
+                     samples[i].spacing_px / options.observation_length_px,
                      projected[i].image_px,
                      projected[i].normal,
                      loose_px,
@@ -123,12 +123,12 @@ AlignmentScore ScoreFromSamples(const std::vector<ScoreSample>& samples,
     seen.clear();
     for (; end < samples.size() && samples[end].edge == samples[start].edge; ++end) {
       const ScoreSample& sample = samples[end];
-      const auto projected = projection.Project(sample.point_in_world);
-      if (!projected) continue;
-      const double offset_px = sample.normal.dot(projected->image_px - sample.origin_px);
+      const auto image_px = projection.ImageOf(sample.point_in_world);
+      if (!image_px) continue;
+      const double offset_px = sample.normal.dot(*image_px - sample.origin_px);
       seen.push_back({&sample, offset_px});
       width_px += 2 * sample.range_px;
-      score.votes += sample.votes;
+      score.observations += sample.observations;
       for (const EdgeCandidate& candidate : sample.candidates) {
         if (std::abs(candidate.offset_px - offset_px) > sample.range_px) continue;
         crowd[candidate.strength > 0 ? 1 : 0] += 1;

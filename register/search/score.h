@@ -16,7 +16,7 @@ struct ScoreOptions {
   double noise_px = 1.0;
   // Candidates are counted this far to both sides, to tell how crowded the place is.
   double clutter_range_px = 12;
-  double vote_length_px = 20;
+  double observation_length_px = 20;
   double gate_deg = 25;
   // Share of a model edge that the photograph shows; candidates that are looked at for a sample.
   double shown_share = 0.65;
@@ -27,14 +27,14 @@ struct ScoreOptions {
 };
 
 // How much better than chance the model's edges meet the photograph's, in nats: for each edge,
-// with the contrast sign that suits it better, one vote for each vote_length_px of
+// with the contrast sign that suits it better, one observation for each observation_length_px of
 //   log(0.35 + 0.65 p / q),
 // p the density of a right match at the nearest candidate, q the density of candidates thereabouts.
 // Its zero means something: a wrong camera scores below it. An edge of a loose model may lie off
 // as a whole (EdgeSample::looseness): its score is the mean over where it may lie.
 struct AlignmentScore {
   double nats = 0;
-  double votes = 0;  // that were cast; the score of a perfect alignment grows with them
+  double observations = 0;  // independent ones; the score of a perfect alignment grows with them
 };
 AlignmentScore ScoreAlignment(const std::vector<EdgeSample>& samples,
                               const ParameterProjection& projection,
@@ -46,7 +46,7 @@ AlignmentScore ScoreAlignment(const std::vector<EdgeSample>& samples,
 struct ScoreSample {
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
   int edge = -1;
-  double votes = 0;
+  double observations = 0;
   Eigen::Vector2d origin_px = Eigen::Vector2d::Zero();  // where offset 0 lies
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();    // unit length
   double loose_px = 0;                                  // how far a loose model's edge may lie off

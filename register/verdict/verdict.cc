@@ -41,9 +41,10 @@ void Add(Verdict verdict, const std::string& reason, Judgement& judgement) {
 }  // namespace
 
 void VerdictOptions::Check(const std::string& path) const {
-  CheckAtLeast(min_margin_per_vote, 0, path + "min_margin_per_vote");
+  CheckAtLeast(min_margin_per_observation, 0, path + "min_margin_per_observation");
   CheckAtLeast(min_margin_nats, 0, path + "min_margin_nats");
-  CheckAtLeast(min_nats_per_vote, 0, path + "min_nats_per_vote");
+  CheckAtLeast(min_nats_per_observation, 0, path + "min_nats_per_observation");
+  CheckAtLeast(min_nats, 0, path + "min_nats");
   CheckAbove(max_prior_sigmas, 0, path + "max_prior_sigmas");
   CheckAbove(max_prior_chi_squared, 0, path + "max_prior_chi_squared");
   CheckAbove(max_vertex_sigma_px, 0, path + "max_vertex_sigma_px");
@@ -58,7 +59,7 @@ void ApplyJudgement(const Judgement& judgement, Registration& registration) {
 }
 
 double LeastMargin(const AlignmentScore& score, const VerdictOptions& options) {
-  return std::max(options.min_margin_nats, options.min_margin_per_vote * score.votes);
+  return std::max(options.min_margin_nats, options.min_margin_per_observation * score.observations);
 }
 
 Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options) {
@@ -71,18 +72,29 @@ Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options) {
                score.nats),
         judgement);
   }
+  if (score.nats > 0 && score.nats < options.min_nats && !evidence.has_control_points &&
+      score.nats + evidence.tie_nats < options.min_nats) {
+    Add(Verdict::kRejected,
+        Format(
+            "the photograph says next to nothing about its camera (score %.1f nats; chance finds "
+            "a place with up to %.0f)",
+            score.nats,
+            options.min_nats),
+        judgement);
+  }
   // What stands against a camera of few edges, where other photographs do not confirm it.
-  const double nats_per_vote =
-      (score.nats + std::max(0.0, evidence.tie_nats)) / std::max(1.0, score.votes);
-  if (score.nats > 0 && nats_per_vote < options.min_nats_per_vote) {
+  const double nats_per_observation =
+      (score.nats + std::max(0.0, evidence.tie_nats)) / std::max(1.0, score.observations);
+  if (score.nats > 0 && nats_per_observation < options.min_nats_per_observation) {
     Add(Verdict::kReview,
-        Format("few of the model's edges are in the photograph (%.2f nats a vote)", nats_per_vote),
+        Format("few of the model's edges are in the photograph (%.2f nats an observation)",
+               nats_per_observation),
         judgement);
   }
   if (evidence.margin_nats && *evidence.margin_nats < LeastMargin(score, options)) {
     Add(Verdict::kReview,
-        Format("a rival %.1f px away fits almost as well (margin %.0f nats)",
-               evidence.rival_distance_px,
+        Format("another camera %.1f px away fits almost as well (margin %.0f nats)",
+               evidence.second_best_distance_px,
                *evidence.margin_nats),
         judgement);
   }
@@ -152,14 +164,14 @@ Judgement JudgeControlPoints(const std::vector<ControlPoint>& points,
   Judgement judgement;
   for (const ControlPoint& point : points) {
     const Eigen::Vector2d at = point.image_px / scale;
-    const auto projected = projection.Project(point.point_in_world);
-    if (!projected) {
+    const auto seen_px = projection.ImageOf(point.point_in_world);
+    if (!seen_px) {
       Add(Verdict::kReview,
           Format("the control point at %.0f %.0f is behind the camera", at.x(), at.y()),
           judgement);
       continue;
     }
-    const double distance_px = (projected->image_px - point.image_px).norm();
+    const double distance_px = (*seen_px - point.image_px).norm();
     if (distance_px <= options.max_control_point_sigmas * point.sigma_px) continue;
     Add(Verdict::kReview,
         Format("the control point at %.0f %.0f is seen %.1f px away, %.1f of its sigmas",

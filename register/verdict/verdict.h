@@ -16,13 +16,18 @@ namespace groundglass {
 
 // What a camera must show before it is accepted.
 struct VerdictOptions {
-  // The best solution must score this much above its best rival for each vote that was cast, and
-  // this much in all, nats.
-  double min_margin_per_vote = 0.15;
+  // The best solution must score this much above the second-best for each independent observation,
+  // and this much in all, nats.
+  double min_margin_per_observation = 0.15;
   double min_margin_nats = 20;
-  // The best solution must score at least this for each vote that was cast
+  // The best solution must score at least this for each independent observation
   // (docs/measurements/accuracy.md).
-  double min_nats_per_vote = 0.2;
+  double min_nats_per_observation = 0.2;
+  // A camera whose score is less than this in all is rejected, nats. By chance alone the best of n
+  // places scores about ln n, 11 for those that the search tries, and up to twice that where one
+  // row of bricks is many observations (docs/measurements/accuracy.md). Does not hold where a
+  // person has pointed: then the edges need not find the place.
+  double min_nats = 25;
   // No parameter may end further than this from its prior, in the prior's sigmas.
   double max_prior_sigmas = 3.5;
   // Nor may all of them together: the squared length of the whitened change (chi-squared with 11
@@ -53,14 +58,15 @@ void ApplyJudgement(const Judgement& judgement, Registration& registration);
 struct Evidence {
   AlignmentScore score;
   std::optional<double> margin_nats;
-  double rival_distance_px = 0;  // of the photograph
-  double tie_nats = 0;           // how much other photographs speak for it (TieSupport)
+  double second_best_distance_px = 0;  // of the photograph
+  bool has_control_points = false;
+  double tie_nats = 0;  // how much other photographs speak for it (TieSupport)
 };
-// How much better than its rival a camera must be, nats.
+// How much better than the second-best camera one must be, nats.
 double LeastMargin(const AlignmentScore& score, const VerdictOptions& options);
 
-// Goodness of fit: rejected where the edges fit no better than by chance, review where they fit
-// little, or elsewhere almost as well.
+// Goodness of fit: rejected where the edges fit no better than by chance, at that place or at the
+// best of many, review where they fit little, or elsewhere almost as well.
 Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options);
 
 // How far the refinement came.

@@ -3,6 +3,7 @@
 // Boards that are numbered, turned and bordered in other ways than ours.
 #include "calibrate/board_layout.h"
 
+#include "calibrate/calibrate_board.h"
 #include "scene/formats/image_io.h"
 #include "scene/frames.h"
 #include "tests/support/temporary_folder.h"

@@ -133,7 +133,7 @@ TEST(ModelTolerance, ALooseModelMayLieOffAsAWholeEdgeAndStillScores) {
     ScoreSample sample;
     sample.point_in_world = {0, 0, 0.1 * i};
     sample.edge = 0;
-    sample.votes = 0.2;
+    sample.observations = 0.2;
     sample.origin_px = projection.Project(sample.point_in_world)->image_px;
     sample.range_px = 12;
     sample.candidates = {{6.2, 8}};

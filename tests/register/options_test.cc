@@ -18,6 +18,17 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTheSearch) {
                                 again,
                                 rounds,
                                 centres,
+                                length,
+                                orientations,
+                                grid_blur,
+                                climb_blur,
+                                growth,
+                                corner,
+                                climb_distinct,
+                                climbs,
+                                least_step,
+                                climb_rounds,
+                                climb_reach,
                                 shown,
                                 weakest,
                                 half] = HypothesisOptions();
@@ -28,9 +39,21 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTheSearch) {
       {"max_grid_points", [](auto& o) { o.max_grid_points = 0; }},
       {"max_starts", [](auto& o) { o.max_starts = -1; }},
       {"distinct_cells", [](auto& o) { o.distinct_cells = kInfinity; }},
-      {"again_below_nats_per_vote", [](auto& o) { o.again_below_nats_per_vote = -1; }},
+      {"again_below_nats_per_observation",
+       [](auto& o) { o.again_below_nats_per_observation = -1; }},
       {"max_rounds", [](auto& o) { o.max_rounds = 0; }},
       {"num_centres", [](auto& o) { o.num_centres = 0; }},
+      {"observation_length_px", [](auto& o) { o.observation_length_px = 0; }},
+      {"num_orientations", [](auto& o) { o.num_orientations = 0; }},
+      {"grid_blur_steps", [](auto& o) { o.grid_blur_steps = 0; }},
+      {"climb_blur_cells", [](auto& o) { o.climb_blur_cells = kNotANumber; }},
+      {"step_growth", [](auto& o) { o.step_growth = 1; }},
+      {"corner_reach", [](auto& o) { o.corner_reach = 0.9; }},
+      {"climb_distinct_steps", [](auto& o) { o.climb_distinct_steps = -1; }},
+      {"climbs_per_start", [](auto& o) { o.climbs_per_start = 0; }},
+      {"least_climb_step_cells", [](auto& o) { o.least_climb_step_cells = 0; }},
+      {"climb_rounds", [](auto& o) { o.climb_rounds = 0; }},
+      {"climb_reach_sigmas", [](auto& o) { o.climb_reach_sigmas = kInfinity; }},
       {"shown_share", [](auto& o) { o.shown_share = 0; }},
       {"min_gradient", [](auto& o) { o.min_gradient = -1; }},
       {"half_weight_gradient", [](auto& o) { o.half_weight_gradient = 0; }},
@@ -38,19 +61,19 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTheSearch) {
 }
 
 TEST(RegistrationOptions, CheckNamesEachFieldOfMatchingAndScore) {
-  [[maybe_unused]] const auto& [range, candidates, gate, outliers, vote] = MatchOptions();
+  [[maybe_unused]] const auto& [range, candidates, gate, outliers, observation] = MatchOptions();
   ExpectCheckNamesEach<MatchOptions>({
       {"final_range_px", [](auto& o) { o.final_range_px = 0; }},
       {"max_candidates", [](auto& o) { o.max_candidates = 0; }},
       {"gate_deg", [](auto& o) { o.gate_deg = 91; }},
       {"outlier_share", [](auto& o) { o.outlier_share = 1; }},
-      {"vote_length_px", [](auto& o) { o.vote_length_px = kNotANumber; }},
+      {"observation_length_px", [](auto& o) { o.observation_length_px = kNotANumber; }},
   });
   [[maybe_unused]] const auto& [noise, clutter, length, angle, shown, most] = ScoreOptions();
   ExpectCheckNamesEach<ScoreOptions>({
       {"noise_px", [](auto& o) { o.noise_px = 0; }},
       {"clutter_range_px", [](auto& o) { o.clutter_range_px = -12; }},
-      {"vote_length_px", [](auto& o) { o.vote_length_px = 0; }},
+      {"observation_length_px", [](auto& o) { o.observation_length_px = 0; }},
       {"gate_deg", [](auto& o) { o.gate_deg = kNotANumber; }},
       {"shown_share", [](auto& o) { o.shown_share = 1; }},
       {"max_candidates", [](auto& o) { o.max_candidates = 0; }},
@@ -64,11 +87,30 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfMatchingAndScore) {
 }
 
 TEST(RegistrationOptions, CheckNamesEachFieldOfRefinement) {
-  [[maybe_unused]] const auto& [start, shrink, spacing, matching, bias, noise] = RefineOptions();
+  [[maybe_unused]] const auto& [start,
+                                shrink,
+                                spacing,
+                                border,
+                                matching,
+                                bias,
+                                noise,
+                                matched,
+                                final_steps,
+                                annealing_iterations,
+                                final_iterations,
+                                tolerance,
+                                settled] = RefineOptions();
   ExpectCheckNamesEach<RefineOptions>({
       {"start_sigmas", [](auto& o) { o.start_sigmas = -1; }},
       {"shrink", [](auto& o) { o.shrink = 1; }},
       {"spacing_px", [](auto& o) { o.spacing_px = 0; }},
+      {"border_px", [](auto& o) { o.border_px = -1; }},
+      {"min_matched", [](auto& o) { o.min_matched = 0; }},
+      {"num_final_steps", [](auto& o) { o.num_final_steps = 0; }},
+      {"annealing_iterations", [](auto& o) { o.annealing_iterations = 0; }},
+      {"final_iterations", [](auto& o) { o.final_iterations = 0; }},
+      {"function_tolerance", [](auto& o) { o.function_tolerance = kNotANumber; }},
+      {"settled_sigmas", [](auto& o) { o.settled_sigmas = 0; }},
       {"matching.gate_deg", [](auto& o) { o.matching.gate_deg = 0; }},
       {"bias.edge_turn_sigmas", [](auto& o) { o.bias.edge_turn_sigmas = 0; }},
       {"min_noise_px", [](auto& o) { o.min_noise_px = 1.5; }},  // above half the final range
@@ -214,6 +256,7 @@ TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
                                 points,
                                 use_ties,
                                 tie_rounds,
+                                keep,
                                 together] = RegisterOptions();
   ExpectCheckNamesEach<RegisterOptions>({
       {"sigma-roll", [](auto& o) { o.prior.roll_deg = 0; }},
@@ -227,10 +270,14 @@ TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
       {"joint.own.edge_turn_sigmas", [](auto& o) { o.joint.own.edge_turn_sigmas = 0; }},
       {"model_errors.min_sigmas", [](auto& o) { o.model_errors.min_sigmas = -1; }},
       {"max_width_px", [](auto& o) { o.max_width_px = 63; }},
-      {"solutions.rival_distance_px", [](auto& o) { o.solutions.rival_distance_px = kNotANumber; }},
-      {"verdict.min_margin_per_vote", [](auto& o) { o.verdict.min_margin_per_vote = -1; }},
+      {"solutions.distinct_distance_px",
+       [](auto& o) { o.solutions.distinct_distance_px = kNotANumber; }},
+      {"verdict.min_margin_per_observation",
+       [](auto& o) { o.verdict.min_margin_per_observation = -1; }},
       {"verdict.min_margin_nats", [](auto& o) { o.verdict.min_margin_nats = kInfinity; }},
-      {"verdict.min_nats_per_vote", [](auto& o) { o.verdict.min_nats_per_vote = kNotANumber; }},
+      {"verdict.min_nats_per_observation",
+       [](auto& o) { o.verdict.min_nats_per_observation = kNotANumber; }},
+      {"verdict.min_nats", [](auto& o) { o.verdict.min_nats = -1; }},
       {"verdict.max_prior_sigmas", [](auto& o) { o.verdict.max_prior_sigmas = 0; }},
       {"verdict.max_prior_chi_squared", [](auto& o) { o.verdict.max_prior_chi_squared = 0; }},
       {"verdict.max_vertex_sigma_px", [](auto& o) { o.verdict.max_vertex_sigma_px = 0; }},

@@ -69,6 +69,19 @@ TEST(RegisterScene, TheBrickBuildingsSlidesAreFoundToHalfAPixel) {
   EXPECT_LT(errors.accepted_px[errors.accepted_px.size() / 2], 0.5);
 }
 
+// Slide 7 with `k 79.9` typed for 19.9: the tag looks into the sky above the hall.
+TEST(RegisterScene, ATagThatLooksIntoTheSkyIsRejected) {
+  Scene scene = ReadScene(BrickFolder());
+  std::erase_if(scene.photographs, [](const Photograph& one) { return one.name != "s7"; });
+  ASSERT_EQ(scene.photographs.size(), 1u);
+  ASSERT_EQ(scene.photographs[0].tag.lookat_in_site.z(), 19.9);
+  scene.photographs[0].tag.lookat_in_site.z() = 79.9;
+  const Registration found = RegisterScene(scene, {}, {}, {}).registrations.at(0);
+  EXPECT_EQ(found.verdict, Verdict::kRejected);
+  EXPECT_EQ(found.corrected, found.measured);
+  EXPECT_NE(found.reasons.at(0).find("says next to nothing"), std::string::npos);
+}
+
 TEST(RegisterScene, RealPhotographsAreFoundToThreeFifthsOfAPixel) {
   const std::filesystem::path folder = ChateauFolder();
   if (folder.empty()) GTEST_SKIP() << "the château is not here; set GROUNDGLASS_DATA to its parent";

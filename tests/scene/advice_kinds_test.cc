@@ -2,6 +2,7 @@
 // Part of Groundglass.
 // Kinds of mistakes that the tags alone do not tell, or tell wrongly: the bundled hall with each.
 #include "scene/advice/advice.h"
+#include "scene/formats/scene_folder.h"
 #include "scene/frames.h"
 #include "tests/support/temporary_folder.h"
 

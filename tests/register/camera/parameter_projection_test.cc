@@ -41,6 +41,7 @@ TEST(ParameterProjection, AgreesWithTheCameraThatTheTagDescribes) {
     ASSERT_EQ(expected.has_value(), found.has_value());
     if (expected) {
       EXPECT_LT((*expected - found->image_px).norm(), 1e-8);
+      EXPECT_EQ(found->image_px, *projection.ImageOf(point));
     }
   }
 }
@@ -72,6 +73,7 @@ TEST(ParameterProjection, APointBehindTheCameraHasNoImage) {
   const Eigen::Vector3d behind =
       WorldFromSite(tag.position_in_site - (tag.lookat_in_site - tag.position_in_site));
   EXPECT_FALSE(projection.Project(behind));
+  EXPECT_FALSE(projection.ImageOf(behind));
 }
 
 }  // namespace

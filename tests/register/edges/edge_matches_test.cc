@@ -16,7 +16,7 @@ double Normal(double x, double sigma) {
 
 CandidateSample SampleWith(const std::vector<EdgeCandidate>& candidates) {
   CandidateSample sample;
-  sample.sample.spacing_px = 20;  // one vote
+  sample.sample.spacing_px = 20;  // one observation
   sample.candidates = candidates;
   return sample;
 }

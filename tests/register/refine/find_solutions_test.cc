@@ -57,7 +57,7 @@ struct Fixture {
           const double off = (projection.Project(point)->image_px -
                               prior.ProjectionAt(right).Project(point)->image_px)
                                  .norm();
-          return AlignmentScore{.nats = 100 - off, .votes = 100};
+          return AlignmentScore{.nats = 100 - off, .observations = 100};
         };
   }
 
@@ -95,28 +95,28 @@ TEST(FindSolutions, WhereThePriorBendsItSearchesAgainUntilAScoreIsGood) {
   fixture.prior.root *= 20;  // so wide that edges' paths bend
   fixture.options.hypotheses.max_rounds = 3;
   fixture.options.hypotheses.num_centres = 2;
-  fixture.options.hypotheses.again_below_nats_per_vote = 10;  // none is good
+  fixture.options.hypotheses.again_below_nats_per_observation = 10;  // none is good
   fixture.Find();
   EXPECT_GT(fixture.num_searches, 1);
   fixture.num_searches = 0;
-  fixture.options.hypotheses.again_below_nats_per_vote = -1000;  // the first is
+  fixture.options.hypotheses.again_below_nats_per_observation = -1000;  // the first is
   fixture.Find();
   EXPECT_EQ(fixture.num_searches, 1);
 }
 
-TEST(FindRival, IsTheBestThatLiesElsewhere) {
+TEST(FindSecondBest, IsTheBestThatLiesElsewhere) {
   Fixture fixture;
   const std::vector<Solution> solutions = fixture.Find();
   const CameraPrior& prior = fixture.prior;
-  fixture.options.rival_distance_px = 0;
-  const Rival near = FindRival(solutions, prior, fixture.options);
+  fixture.options.distinct_distance_px = 0;
+  const SecondBest near = FindSecondBest(solutions, prior, fixture.options);
   EXPECT_EQ(near.solution, &solutions[1]);
   EXPECT_GT(near.distance_px, 0);
   // Beyond the second but not the third, at a width of 1200.
-  fixture.options.rival_distance_px = near.distance_px * 1200 / kWidth;
-  EXPECT_EQ(FindRival(solutions, prior, fixture.options).solution, &solutions[2]);
-  fixture.options.rival_distance_px = 1e6;
-  EXPECT_EQ(FindRival(solutions, prior, fixture.options).solution, nullptr);
+  fixture.options.distinct_distance_px = near.distance_px * 1200 / kWidth;
+  EXPECT_EQ(FindSecondBest(solutions, prior, fixture.options).solution, &solutions[2]);
+  fixture.options.distinct_distance_px = 1e6;
+  EXPECT_EQ(FindSecondBest(solutions, prior, fixture.options).solution, nullptr);
 }
 
 }  // namespace

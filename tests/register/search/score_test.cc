@@ -18,12 +18,12 @@ ParameterProjection Projection() {
   return ParameterProjection(ParametersFromTag(tag), {}, 600, 400);
 }
 
-// A sample of a horizontal edge through the origin, of two votes, with an edge of the picture this
-// far below it.
+// A sample of a horizontal edge through the origin, of two observations, with an edge of the
+// picture this far below it.
 ScoreSample SampleAt(double offset_px, double strength = 8) {
   ScoreSample sample;
   sample.edge = 0;
-  sample.votes = 2;
+  sample.observations = 2;
   sample.origin_px = {300, 200};
   sample.normal = {0, 1};
   sample.range_px = 12;
@@ -33,7 +33,7 @@ ScoreSample SampleAt(double offset_px, double strength = 8) {
 
 TEST(ScoreFromSamples, AnEdgeThatMeetsIsBetterThanChanceAndOneThatMissesIsWorse) {
   const AlignmentScore meets = ScoreFromSamples({SampleAt(0)}, Projection(), {});
-  EXPECT_EQ(meets.votes, 2);
+  EXPECT_EQ(meets.observations, 2);
   EXPECT_GT(meets.nats, 0);
   const AlignmentScore misses = ScoreFromSamples({SampleAt(11)}, Projection(), {});
   EXPECT_LT(misses.nats, 0);
@@ -59,10 +59,10 @@ TEST(ScoreFromSamples, APlaceFullOfEdgesSaysLess) {
             ScoreFromSamples({SampleAt(0)}, Projection(), {}).nats);
 }
 
-TEST(ScoreFromSamples, WhatLiesBehindTheCameraCastsNoVote) {
+TEST(ScoreFromSamples, WhatLiesBehindTheCameraIsNoObservation) {
   ScoreSample behind = SampleAt(0);
   behind.point_in_world = {0, -200, 0};
-  EXPECT_EQ(ScoreFromSamples({behind}, Projection(), {}).votes, 0);
+  EXPECT_EQ(ScoreFromSamples({behind}, Projection(), {}).observations, 0);
 }
 
 }  // namespace

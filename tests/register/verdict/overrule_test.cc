@@ -44,12 +44,12 @@ TEST(Overrule, PutsThePersonBeforeTheReasons) {
   Registration registration;
   registration.name = "s7";
   registration.verdict = Verdict::kReview;
-  registration.reasons = {"a rival fits almost as well"};
+  registration.reasons = {"another camera fits almost as well"};
   OverruleVerdict({{"s7"}, {}}, registration);
   EXPECT_EQ(registration.verdict, Verdict::kAccepted);
   EXPECT_THAT(registration.reasons,
               ElementsAre("accepted by a person, overruling the verdict review",
-                          "a rival fits almost as well"));
+                          "another camera fits almost as well"));
 }
 
 TEST(Overrule, LeavesOthersAndAgreementAlone) {

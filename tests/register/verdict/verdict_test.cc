@@ -8,21 +8,22 @@
 namespace groundglass {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(JudgeFit, WithoutARivalThereIsNothingAgainstIt) {
+TEST(JudgeFit, WithoutASecondBestThereIsNothingAgainstIt) {
   const Judgement judgement = JudgeFit({{400, 300}, std::nullopt, 0}, {});
   EXPECT_EQ(judgement.verdict, Verdict::kAccepted);
   EXPECT_THAT(judgement.reasons, IsEmpty());
 }
 
-TEST(JudgeFit, ARivalThatFitsAlmostAsWellIsReviewed) {
+TEST(JudgeFit, ASecondBestThatFitsAlmostAsWellIsReviewed) {
   const Judgement judgement = JudgeFit({{400, 300}, 30, 7.5}, {});
   EXPECT_EQ(judgement.verdict, Verdict::kReview);
   EXPECT_THAT(judgement.reasons,
-              ElementsAre("a rival 7.5 px away fits almost as well (margin 30 nats)"));
+              ElementsAre("another camera 7.5 px away fits almost as well (margin 30 nats)"));
   EXPECT_EQ(JudgeFit({{400, 300}, 46, 7.5}, {}).verdict, Verdict::kAccepted);
 }
 
@@ -31,11 +32,22 @@ TEST(JudgeFit, NoBetterThanChanceIsRejected) {
   EXPECT_EQ(JudgeFit({{30, 300}, std::nullopt, 0}, {}).verdict, Verdict::kReview);
 }
 
+// A tag that looks into the sky: ten observations, of which two nats are better than chance.
+TEST(JudgeFit, WhatChanceFindsAmongManyPlacesIsRejected) {
+  const Judgement judgement = JudgeFit({{2, 9}, 0, 12.7}, {});
+  EXPECT_EQ(judgement.verdict, Verdict::kRejected);
+  EXPECT_THAT(judgement.reasons, Contains(HasSubstr("says next to nothing")));
+  EXPECT_EQ(JudgeFit({{26, 40}, std::nullopt, 0}, {}).verdict, Verdict::kAccepted);
+  // Where a person has pointed the place was not found by chance.
+  EXPECT_EQ(JudgeFit({{2, 9}, std::nullopt, 0, true}, {}).verdict, Verdict::kAccepted);
+  EXPECT_EQ(JudgeFit({{2, 9}, std::nullopt, 0}, {.min_nats = 1}).verdict, Verdict::kAccepted);
+}
+
 TEST(JudgeFit, ItsLimitsAreTheOptions) {
   VerdictOptions options;
-  options.min_nats_per_vote = 0.05;
+  options.min_nats_per_observation = 0.05;
   EXPECT_EQ(JudgeFit({{30, 300}, std::nullopt, 0}, options).verdict, Verdict::kAccepted);
-  options.min_margin_per_vote = 0;
+  options.min_margin_per_observation = 0;
   options.min_margin_nats = 29;
   EXPECT_EQ(JudgeFit({{400, 300}, 30, 7.5}, options).verdict, Verdict::kAccepted);
   options.min_margin_nats = 31;

@@ -4,6 +4,7 @@
 // to do; as it is, nothing is.
 #include "scene/advice/advice.h"
 
+#include "scene/formats/scene_folder.h"
 #include "scene/formats/tags_csv.h"
 #include "scene/frames.h"
 #include "tests/support/temporary_folder.h"

@@ -4,6 +4,7 @@
 
 #include "scene/advice/advice.h"
 #include "scene/formats/view_io.h"
+#include "scene/text.h"
 #include "tests/scene/sample_scene_folder.h"
 #include "tests/support/thrown_message.h"
 
