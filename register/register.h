@@ -26,7 +26,9 @@
 //             ScoreAlignment            samples, evidence        -> how much speaks for a camera
 //   refine/   RefinePhotograph          a start                  -> the best camera near it
 //             FindSolutions, FindSecondBest  the three above          -> solutions, best first
-//   joint/    RefineTogether            accepted photographs     -> cameras, lenses, model's edges
+//   ties/     FindTiePoints             cameras found so far     -> what photographs show alike
+//             MeasureTieSupport         tie points, a camera     -> how much others speak for it
+//   joint/    RefineTogether            photographs, tie points  -> cameras, lenses, model's edges
 //             FindModelErrors           displaced edges          -> lines that the model has wrong
 //   verdict/  Judge...                  score, change, precision -> accepted, review, rejected, why
 //
