@@ -35,6 +35,7 @@ std::vector<MeantTag> FindSlips(const AdviceContext& context,
   std::vector<MeantTag> explain;
   if (!IsLookatWrong(as_read)) return explain;
   for (const MeantTag& meant : FindMeantTags(photograph.tag)) {
+    if (meant.is_of_digits) continue;
     const Standpoint standpoint = Locate(context, photograph, meant.tag);
     if (IsPlausible(standpoint) && standpoint.front_share > 0.7 && standpoint.lookat_error < 0.02) {
       explain.push_back(meant);
@@ -176,6 +177,7 @@ TagDoubt DoubtTag(const AdviceContext& context, size_t index) {
                  UnitName(context.scene.model.unit) + "), and whether it is this photograph's tag";
   if (doubt.wrong.empty() && !doubt.meant.empty()) {
     doubt.wrong = "the camera does not see the point that it is said to look at";
+    doubt.is_only_unusual = true;
   }
   if (doubt.wrong.empty() && HasMinusBeforeHeight(context, index)) {
     doubt.wrong = "the camera stands below the ground, at z " +

@@ -127,11 +127,11 @@ void WeighTag(const AdviceContext& context,
                                     : fit.as_read > 0 && fit.as_read < kClearScore - kClearLead;
   if ((doubt.wrong.empty() && !is_poor) || !SuitsPicture(photograph)) return;
   const Scale scale(context, photograph);
-  if (doubt.is_only_unusual) {
-    const bool suits_as_read = scale.Score(doubt.meant.front().tag) < fit.nearby - kEquallyGood;
-    if (suits_as_read) doubt = {};
+  if (doubt.is_only_unusual && scale.Score(doubt.meant.front().tag) < fit.nearby - kEquallyGood) {
+    doubt = {};  // the picture suits the tag as it is
     return;
   }
+  if (doubt.is_only_unusual && !is_poor) return;
   const std::vector<MeantTag> confirmed = FindConfirmed(scale, fit, photograph.tag, expected);
   if (!confirmed.empty()) {
     if (doubt.wrong.empty()) doubt.wrong = "the picture does not show what its tag looks at";

@@ -75,16 +75,18 @@ constexpr std::array<TagKey, 7> kWrittenKeys = {
 
 bool IsWrittenDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-void AddIfValid(const std::string& slip,
+// True if it is added.
+bool AddIfValid(const std::string& slip,
                 const ViewTag& meant,
                 const ViewTag& tag,
                 std::vector<MeantTag>& found) {
-  if (meant == tag || FindTagFault(meant)) return;
-  MeantTag& added = found.emplace_back(MeantTag{slip, meant, {}});
+  if (meant == tag || FindTagFault(meant)) return false;
+  MeantTag& added = found.emplace_back(MeantTag{slip, meant, false, {}});
   for (int key = 0; key < kNumTagKeys; ++key) {
     added.is_changed[static_cast<size_t>(key)] =
         GetTagValue(meant, static_cast<TagKey>(key)) != GetTagValue(tag, static_cast<TagKey>(key));
   }
+  return true;
 }
 
 // The tag with this number as it is spelled here.
@@ -98,7 +100,9 @@ void AddSpelled(const std::string& digits,
   ViewTag meant = tag;
   SetTagValue(meant, key, *value);
   const std::string name(kTagKeyNames[static_cast<size_t>(key)]);
-  AddIfValid(name + " " + FormatNumber(*value) + " (" + slip + ")", meant, tag, found);
+  if (AddIfValid(name + " " + FormatNumber(*value) + " (" + slip + ")", meant, tag, found)) {
+    found.back().is_of_digits = true;
+  }
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ extern const std::array<TagSlip, 27> kTagSlips;
 struct MeantTag {
   std::string slip;  // "x and y exchanged", "x 46.7 (two digits exchanged)": "with ... it would"
   ViewTag tag;
+  bool is_of_digits = false;  // one of many ways to change digits, which suit a tag by chance too
   std::array<bool, kNumTagKeys> is_changed{};  // of its numbers, those that the slip has changed
 };
 // What the tag may have been meant to be, valid ones only, the likelier ones first: with one of
