@@ -65,7 +65,9 @@ std::string NoSuchFace(const PolygonModel& model, const std::string& word) {
 std::string ListNames(std::span<const PhotographName> names) {
   constexpr size_t kMost = 30;
   std::string all;
-  for (size_t i = 0; i < std::min(names.size(), kMost); ++i) all += " " + names[i].name;
+  for (size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+    all += (i == 0 ? " " : ", ") + names[i].name;
+  }
   if (names.size() > kMost) all += " and " + std::to_string(names.size() - kMost) + " more";
   return all;
 }

@@ -79,7 +79,8 @@ std::optional<Coverage> ReadCoverage(const std::filesystem::path& file) {
   std::ifstream in(file);
   try {
     Coverage coverage;
-    for (const nlohmann::json& face : nlohmann::json::parse(in).at("faces")) {
+    const nlohmann::json json = nlohmann::json::parse(in);
+    for (const nlohmann::json& face : json.at("faces")) {
       coverage.faces.push_back(FaceFromJson(face));
     }
     return coverage;

@@ -46,11 +46,12 @@ class Sha256 {
 
 Manifest ManifestFromJson(const nlohmann::json& json) {
   Manifest manifest;
-  manifest.version = json.at("version").get<std::string>();
-  manifest.command = json.at("command").get<std::string>();
-  manifest.seed = json.at("seed").get<uint64_t>();
-  manifest.options = json.at("options").get<std::map<std::string, std::string>>();
-  manifest.sha256_of_inputs = json.at("sha256_of_inputs").get<std::map<std::string, std::string>>();
+  using Texts = std::map<std::string, std::string>;
+  manifest.version = json.value("version", std::string());
+  manifest.command = json.value("command", std::string());
+  manifest.seed = json.value("seed", uint64_t{0});
+  manifest.options = json.value("options", Texts());
+  manifest.sha256_of_inputs = json.value("sha256_of_inputs", Texts());
   for (const auto& stage : json.at("stages")) {
     manifest.stages.push_back(
         {stage.at("name").get<std::string>(),

@@ -74,7 +74,7 @@ TEST(ByHand, NamesThatTheSceneDoesNotHaveAreErrors) {
                                          value,
                                          "--quiet"});
       EXPECT_EQ(run.status, 1) << option;
-      EXPECT_THAT(run.err, HasSubstr(place + ": no photograph is called 's9'; there are s1 s2"));
+      EXPECT_THAT(run.err, HasSubstr(place + ": no photograph is called 's9'; there are s1, s2"));
     }
   }
   EXPECT_FALSE(fs::exists(work / "out"));

@@ -51,7 +51,7 @@ TEST(Told, WhichPhotographsThereAreForATableOfPairs) {
     return RunProgram({"run", scene.string(), "-o", (work / "out").string(), "--dry-run"});
   };
   EXPECT_THAT(run("s1,1\ns9,1\n").err,
-              HasSubstr("pairs.csv:3: no photograph is called 's9'; there are s1 s2"));
+              HasSubstr("pairs.csv:3: no photograph is called 's9'; there are s1, s2"));
   EXPECT_THAT(run("s01,1\n").err, HasSubstr("is it s1.jpg?"));
   EXPECT_EQ(run("s9,1\n").status, 1);
   // One that cannot be read is there all the same.

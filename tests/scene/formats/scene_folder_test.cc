@@ -117,7 +117,7 @@ TEST(ReadScene, FaultsOfPhotographsThatAreNotAskedForDoNotMatter) {
   EXPECT_EQ(ReadScene(folder.path(), options).photographs.size(), 1u);
   options.exclude = {"s99"};
   EXPECT_EQ(ThrownMessage([&] { ReadScene(folder.path(), options); }),
-            "option --exclude: no photograph is called 's99'; there are s2 s10");
+            "option --exclude: no photograph is called 's99'; there are s2, s10");
 }
 
 TEST(ReadScene, WithoutAnyPhotographThatCanBeReadTheFirstReasonsAreTold) {
