@@ -21,7 +21,8 @@ struct JobObserver {
   std::function<void(const std::string& line)> told;
   // The tags are corrected, or the corrected ones kept; the long work on pictures comes next.
   std::function<void(const RegisteredScene& registered)> registered;
-  // The texture is made, or the one that was there is kept: this share of the model's surface has one, 0 to 1.
+  // The texture is made, or the one that was there is kept: this share of the model's surface has
+  // one, 0 to 1.
   std::function<void(double covered_share)> textured;
 
   // Each does nothing if its function is empty.
