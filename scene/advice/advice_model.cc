@@ -157,7 +157,14 @@ void AdviseOnStatedUnit(const AdviceContext& context) {
 }  // namespace
 
 void AdviseOnModel(const AdviceContext& context, Misreading misreading) {
-  if (misreading != Misreading::kOfUnit) AdviseOnSize(context, misreading == Misreading::kNone);
+  // How high cameras stand says something of the unit only where most of them look at the model.
+  constexpr double kMost = 0.7;
+  const auto num_plausible =
+      std::count_if(context.standpoints.begin(), context.standpoints.end(), IsPlausible);
+  const bool with_eyes =
+      misreading == Misreading::kNone &&
+      static_cast<double>(num_plausible) >= kMost * static_cast<double>(context.standpoints.size());
+  if (misreading != Misreading::kOfUnit) AdviseOnSize(context, with_eyes);
   if (misreading == Misreading::kNone && context.found.empty()) AdviseOnStatedUnit(context);
   AdviseOnRaster(context);
 }
