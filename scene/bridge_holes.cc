@@ -39,15 +39,22 @@ bool IsBlocked(const Eigen::Vector2d& a,
   return ((p_side > 0) != (q_side > 0)) && ((a_side > 0) != (b_side > 0));
 }
 
+// From left to right, and of those one above another upwards: windows often end on one line, and
+// none of them may be skipped by a bridge that runs along it.
+bool IsLeftOf(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+}
+
 // Joins a hole to the outline around it, from its rightmost corner (Eberly, Triangulation by Ear
-// Clipping): holes that reach farther right are joined already, so some corner is in view.
+// Clipping): holes that reach farther right are joined already, so some corner is in view, and none
+// that is not joined yet can lie between.
 void JoinHole(const std::vector<Eigen::Vector2d>& outline,
               std::vector<int> hole,
               std::vector<int>& joined) {
   std::rotate(
       hole.begin(),
       std::max_element(
-          hole.begin(), hole.end(), [&](int a, int b) { return outline[a].x() < outline[b].x(); }),
+          hole.begin(), hole.end(), [&](int a, int b) { return IsLeftOf(outline[a], outline[b]); }),
       hole.end());
   const Eigen::Vector2d from = outline[hole[0]];
   const size_t n = joined.size();
@@ -59,7 +66,7 @@ void JoinHole(const std::vector<Eigen::Vector2d>& outline,
   size_t place = candidates[0].second;
   for (const auto& [distance, i] : candidates) {
     const Eigen::Vector2d& to = outline[joined[i]];
-    if (to.x() < from.x()) continue;
+    if (IsLeftOf(to, from)) continue;
     if (!StartsInside(outline[joined[(i + n - 1) % n]], to, outline[joined[(i + 1) % n]], from)) {
       continue;
     }
@@ -86,16 +93,23 @@ std::vector<std::vector<int>> BridgeHoles(const std::vector<Eigen::Vector2d>& ou
   for (size_t i = 0; i < loops.loops.size(); ++i) {
     if (loops.loops[i].inside_of >= 0) continue;
     std::vector<int>& joined = outlines.emplace_back(loops.loops[i].corners);
-    std::vector<std::pair<double, const std::vector<int>*>> holes;
+    struct Hole {
+      Eigen::Vector2d rightmost;
+      const std::vector<int>* corners;
+    };
+    std::vector<Hole> holes;
     for (const OutlineLoops::Loop& hole : loops.loops) {
       if (hole.inside_of != static_cast<int>(i)) continue;
-      double right = -1e300;
-      for (const int corner : hole.corners) right = std::max(right, outline[corner].x());
-      holes.emplace_back(right, &hole.corners);
+      Eigen::Vector2d rightmost = outline[hole.corners[0]];
+      for (const int corner : hole.corners) {
+        if (IsLeftOf(rightmost, outline[corner])) rightmost = outline[corner];
+      }
+      holes.push_back({rightmost, &hole.corners});
     }
-    std::stable_sort(
-        holes.begin(), holes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (const auto& [right, corners] : holes) JoinHole(outline, *corners, joined);
+    std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) {
+      return IsLeftOf(b.rightmost, a.rightmost);
+    });
+    for (const Hole& hole : holes) JoinHole(outline, *hole.corners, joined);
   }
   return outlines;
 }

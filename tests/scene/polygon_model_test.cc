@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "scene/polygon_model.h"
 
+#include "scene/face_outline.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,6 +59,49 @@ TEST(TriangulateFace, CollinearCornersLoseNoArea) {
     area += (model.points_in_world[b] - p).cross(model.points_in_world[c] - p).norm() / 2;
   }
   EXPECT_NEAR(area, 2, 1e-12);
+}
+
+// A wall with rows of equal windows, joined to its outline by bridges, that stands turned to the
+// axes; coordinates as a file with three decimals has them.
+PolygonModel WallOfWindows(int columns, int rows, double turn_rad) {
+  std::vector<Eigen::Vector2d> points = {
+      {0, 0}, {8.0 * columns + 3, 0}, {8.0 * columns + 3, 10.0 * rows + 2}, {0, 10.0 * rows + 2}};
+  OutlineLoops loops;
+  loops.loops.push_back({{0, 1, 2, 3}, -1});
+  for (int column = 0; column < columns; ++column) {
+    for (int row = 0; row < rows; ++row) {
+      const Eigen::Vector2d corner(2 + 8 * column, 2 + 10 * row);
+      const int first = static_cast<int>(points.size());
+      for (const auto& [right, up] : {std::pair(0, 0), {0, 5}, {4, 5}, {4, 0}}) {
+        points.push_back(corner + Eigen::Vector2d(right, up));
+      }
+      loops.loops.push_back({{first, first + 1, first + 2, first + 3}, 0});
+    }
+  }
+  const auto rounded = [](double value) { return std::round(value * 1000) / 1000; };
+  PolygonModel model;
+  for (const Eigen::Vector2d& point : points) {
+    model.points_in_world.push_back({rounded(point.x() * std::cos(turn_rad)),
+                                     rounded(point.x() * std::sin(turn_rad)),
+                                     point.y()});
+  }
+  model.faces.push_back({BridgeHoles(points, loops)[0], "wall"});
+  return model;
+}
+
+TEST(TriangulateFace, WindowsThatEndOnOneLineStayOpenAndLoseNoWall) {
+  for (int turn = 0; turn < 60; ++turn) {
+    for (const auto& [columns, rows] : {std::pair(1, 6), {4, 4}, {8, 12}}) {
+      const PolygonModel model = WallOfWindows(columns, rows, 0.11 * turn);
+      double area = 0;
+      for (const auto& [a, b, c] : TriangulateFace(model, 0)) {
+        const auto& p = model.points_in_world;
+        area += 0.5 * (p[b] - p[a]).cross(p[c] - p[a]).norm();
+      }
+      const double expected = (8 * columns + 3) * (10 * rows + 2) - 20 * columns * rows;
+      EXPECT_NEAR(area, expected, 1e-3 * expected) << columns << " x " << rows << ", turn " << turn;
+    }
+  }
 }
 
 TEST(ComputeFacePlane, ACounterclockwiseFaceLooksAtItsViewer) {
