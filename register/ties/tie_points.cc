@@ -45,8 +45,7 @@ class PatchLayer {
     std::vector<PatchPlace> places;
     std::vector<std::vector<size_t>> places_of_face(normals_in_world_.size());
     for (int photograph = 0; photograph < static_cast<int>(views_.size()); ++photograph) {
-      const std::vector<PatchPlace> seen = LayThrough(photograph);
-      for (const PatchPlace& place : seen) {
+      for (const PatchPlace& place : LookThrough(views_[photograph])) {
         std::vector<size_t>& others = places_of_face[place.patch.face];
         const bool is_taken = std::any_of(others.begin(), others.end(), [&](size_t other) {
           return Overlap(places[other].patch, place.patch);
