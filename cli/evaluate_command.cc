@@ -260,6 +260,11 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
                    arguments->trials.sigma_lookat,
                    "of the trials' notebooks, look-at point, model's unit")
       ->capture_default_str();
+  command
+      ->add_option("--overclaim",
+                   arguments->trials.overclaim,
+                   "how many times smaller than these the sigmas are that the trials' tags state")
+      ->capture_default_str();
   command->add_option("--blunders",
                       arguments->trials.num_blunders,
                       "tags of each trial's notebook that hold a blunder: swapped coordinates, a "

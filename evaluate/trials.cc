@@ -39,9 +39,9 @@ ViewTag DrawTag(const Camera& true_camera,
   tag.aspect = written.aspect;
   tag.camera = written.camera;
   tag.sigmas = written.sigmas;
-  tag.sigmas.position = options.sigma_position;
-  tag.sigmas.height = options.sigma_height;
-  tag.sigmas.lookat = options.sigma_lookat;
+  tag.sigmas.position = options.sigma_position / options.overclaim;
+  tag.sigmas.height = options.sigma_height / options.overclaim;
+  tag.sigmas.lookat = options.sigma_lookat / options.overclaim;
   return tag;
 }
 
@@ -90,6 +90,7 @@ void TrialOptions::Check() const {
   CheckAbove(sigma_position, 0, "trial options: sigma_position");
   CheckAbove(sigma_height, 0, "trial options: sigma_height");
   CheckAbove(sigma_lookat, 0, "trial options: sigma_lookat");
+  CheckAbove(overclaim, 0, "trial options: overclaim");
   CheckAtLeast(num_blunders, 0, "trial options: num_blunders");
   registration.Check();
 }

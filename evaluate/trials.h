@@ -23,6 +23,8 @@ struct TrialOptions {
   double sigma_position = 0.15;
   double sigma_height = 0.05;
   double sigma_lookat = 0.3;
+  // The tags state standard deviations that are so many times smaller than these; 1: the same.
+  double overclaim = 1;
   // How many tags of each notebook hold a blunder; they are counted apart.
   int num_blunders = 0;
   RegisterOptions registration;

@@ -78,22 +78,26 @@ WorkingPicture Reduced(const PhotographInput& photograph, const WorkingSize& siz
           ResizedMask(photograph.ignore, size.width_px, size.height_px)};
 }
 
-// What refining an accepted photograph together with others needs.
-AlignedPhotograph Align(const Solution& best,
-                        const SecondBest& second_best,
-                        const CameraPrior& prior,
+// What refining a photograph together with others needs of one of its cameras.
+AlignedPhotograph Align(const TagReading& reading,
+                        const Solution& solution,
+                        const Rival& rival,
+                        const CameraPrior& written,
                         const std::shared_ptr<const TiePicture>& picture,
                         const EdgeEvidence& evidence,
                         double scale,
                         const RegisterOptions& options) {
-  const Refinement& refined = best.refinement;
-  const ParameterProjection projection = prior.ProjectionAt(refined.whitened);
+  const Refinement& refined = solution.refinement;
+  const ParameterProjection projection = reading.prior.ProjectionAt(refined.whitened);
   AlignedPhotograph aligned;
-  aligned.prior = prior;
+  aligned.prior = reading.prior;
+  aligned.written = written;
+  aligned.slip = reading.slip;
+  aligned.log_probability = reading.log_probability;
   aligned.picture = picture;
   aligned.found = FindCandidateSamples(refined.samples,
                                        evidence,
-                                       prior,
+                                       reading.prior,
                                        projection,
                                        0,
                                        options.joint.spare_range * options.joint.start_range_px,
@@ -102,11 +106,12 @@ AlignedPhotograph Align(const Solution& best,
   aligned.noise_px = refined.noise_px;
   aligned.score_samples = FindScoreSamples(
       refined.samples, projection, evidence, options.joint.start_range_px, options.solutions.score);
-  if (second_best.solution) {
-    aligned.second_best_nats = second_best.solution->TotalScore();
-    aligned.second_best_whitened = second_best.solution->refinement.whitened;
+  if (rival.solution != nullptr) {
+    aligned.second_best_nats = rival.total_score;
+    aligned.second_best_whitened = reading.prior.WhitenedAt(
+        rival.reading->prior.ParametersAt(rival.solution->refinement.whitened));
   }
-  aligned.second_best_distance_px = second_best.distance_px / scale;
+  aligned.second_best_distance_px = rival.distance_px / scale;
   return aligned;
 }
 
@@ -135,56 +140,76 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   const WorkingSize size = FindWorkingSize(photograph.grey8, options.max_width_px);
   const WorkingPicture picture = Reduced(photograph, size);
   const EdgeEvidence evidence(picture.grey8, picture.ignore);
-  const CameraPrior prior = MakeCameraPrior(photograph.measured,
-                                            size.width_px,
-                                            size.height_px,
-                                            edge_model.model.unit,
-                                            photograph.lens,
-                                            PriorSuitedTo(edge_model.model, options.prior));
-  registration.prior_sigmas = prior.sigmas;
-  registration.sigmas = prior.sigmas;
+  const PriorOptions prior_options = PriorSuitedTo(edge_model.model, options.prior);
+  const auto prior_of = [&](const ViewTag& tag) {
+    return MakeCameraPrior(
+        tag, size.width_px, size.height_px, edge_model.model.unit, photograph.lens, prior_options);
+  };
+  const CameraPrior written = prior_of(photograph.measured);
+  registration.prior_sigmas = written.sigmas;
+  registration.sigmas = written.sigmas;
   const std::vector<ControlPoint> points =
       PointsIn(photograph.name, options.control_points, size.scale);
 
   // The cameras that fit, the best, and the best one elsewhere.
-  const std::vector<Solution> solutions =
-      FindSolutions(edge_model, evidence, prior, points, options.solutions);
-  alignment.keep_fault = KeepIfAsked({photograph, edge_model, prior, evidence, solutions}, options);
-  if (solutions.empty()) {
+  const std::vector<TagReading> readings = ReadTag(edge_model,
+                                                   evidence,
+                                                   written,
+                                                   prior_of,
+                                                   photograph.other_tags,
+                                                   points,
+                                                   options.solutions,
+                                                   options.readings);
+  if (readings.empty()) {
+    alignment.keep_fault = KeepIfAsked({photograph, edge_model, written, evidence, {}}, options);
     registration.reasons.push_back("the measured tag sees almost nothing of the model");
-    registration.covariance = prior.root * prior.root.transpose();
+    registration.covariance = written.root * written.root.transpose();
     return alignment;
   }
-  const Solution& best = solutions.front();
+  const TagReading& reading = readings.front();
+  alignment.keep_fault =
+      KeepIfAsked({photograph, edge_model, reading.prior, evidence, reading.solutions}, options);
+  const Solution& best = reading.solutions.front();
   const Refinement& refined = best.refinement;
-  const SecondBest second_best = FindSecondBest(solutions, prior, options.solutions);
+  const Rival rival = FindRival(readings, options.solutions);
   FillRegistration({refined.whitened, refined.covariance, refined.num_matched, refined.spread},
-                   prior,
+                   reading.prior,
                    edge_model.model,
                    PointsOf(refined.samples),
                    registration);
 
   // Whether to believe it.
-  Evidence support{best.score, {}, second_best.distance_px / size.scale, !points.empty()};
-  if (second_best.solution)
-    support.margin_nats = best.TotalScore() - second_best.solution->TotalScore();
+  Evidence support{best.score, {}, rival.distance_px / size.scale, !points.empty()};
+  if (rival.solution != nullptr) support.margin_nats = best.TotalScore() - rival.total_score;
   registration.verdict = Verdict::kAccepted;
   RecordEvidence(support, registration);
-  const ParameterProjection projection = prior.ProjectionAt(refined.whitened);
+  const ParameterProjection projection = reading.prior.ProjectionAt(refined.whitened);
   ApplyJudgement(JudgeFit(support, options.verdict), registration);
   ApplyJudgement(JudgeConvergence(refined.outcome), registration);
-  ApplyJudgement(JudgeInnovation(refined.whitened, prior, options.verdict), registration);
-  registration.undetermined = FindUndetermined(registration.sigmas, prior, options.verdict);
+  alignment.is_clear = registration.verdict == Verdict::kAccepted && reading.slip.empty();
+  ApplyJudgement(JudgeTag(reading.prior.ParametersAt(refined.whitened),
+                          written,
+                          reading.slip,
+                          edge_model.model.unit,
+                          options.verdict),
+                 registration);
+  registration.undetermined = FindUndetermined(registration.sigmas, written, options.verdict);
   ApplyJudgement(JudgeControlPoints(points, projection, size.scale, options.verdict), registration);
-  if (!HasCorrection(registration.verdict) || !points.empty()) return alignment;
+  if (!HasCorrection(registration.verdict) || !points.empty()) {
+    alignment.is_clear = false;
+    return alignment;
+  }
   const auto tie_picture =
       std::make_shared<const TiePicture>(picture.grey8, picture.ignore, options.ties.num_levels);
-  const auto align = [&](const Solution& solution, const SecondBest& elsewhere) {
-    return Align(solution, elsewhere, prior, tie_picture, evidence, size.scale, options);
+  const auto align = [&](const TagReading& of, const Solution& solution, const Rival& elsewhere) {
+    return Align(of, solution, elsewhere, written, tie_picture, evidence, size.scale, options);
   };
-  alignment.aligned = align(best, second_best);
-  if (registration.verdict == Verdict::kReview && second_best.solution) {
-    alignment.second_best = align(*second_best.solution, {&best, second_best.distance_px});
+  alignment.aligned = align(reading, best, rival);
+  if (registration.verdict == Verdict::kReview && rival.solution != nullptr) {
+    const double best_as_rival =
+        best.TotalScore() + reading.log_probability - rival.reading->log_probability;
+    alignment.second_best =
+        align(*rival.reading, *rival.solution, {&reading, &best, rival.distance_px, best_as_rival});
   }
   return alignment;
 }

@@ -21,6 +21,7 @@ struct PhotographInput {
   Image8 ignore;  // same size, non-zero where it is no evidence; may be empty
   ViewTag measured;
   std::optional<Lens> lens;
+  std::vector<NamedTag> other_tags = {};  // of the scene's other photographs
 };
 
 // A photograph that was aligned by itself, with what refining it together with others needs. Its
@@ -32,6 +33,8 @@ struct PhotographAlignment {
   // Of a photograph in `review`, as its second-best camera has it; nothing if there is
   // none.
   std::optional<AlignedPhotograph> second_best = {};
+  // Whether edges alone tell its camera from all others, with its tag as it was written.
+  bool is_clear = false;
   // Why options.keep_folder does not have what it should; empty if it has.
   std::string keep_fault = {};
 };

@@ -16,12 +16,13 @@
 namespace groundglass {
 namespace {
 
-// What photographs of the same lens have in common.
+// What photographs of the same lens have in common. Those of another shape are turned or cropped.
 using LensKey = std::tuple<std::string, int, int, double, double>;
 
 LensKey LensKeyOf(const Registration& registration) {
   const ViewTag& tag = registration.measured;
-  if (!tag.camera.empty()) return {tag.camera, 0, 0, 0, 0};
+  const int shape = 1000 * registration.width_px / registration.height_px;
+  if (!tag.camera.empty()) return {tag.camera, shape, 0, 0, 0};
   return {"", registration.width_px, registration.height_px, tag.view_angle_deg, tag.aspect};
 }
 
@@ -38,6 +39,12 @@ struct PhotographSet {
     alignments.push_back(&alignment);
     photographs.push_back(photograph);
     alone_nats.push_back(nats);
+  }
+  void TakeOut(size_t i) {
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    alignments.erase(alignments.begin() + at);
+    photographs.erase(photographs.begin() + at);
+    alone_nats.erase(alone_nats.begin() + at);
   }
 };
 
@@ -63,9 +70,10 @@ JointRefinement Refine(const EdgeModel& edge_model,
   }
   JointOptions joint_options = options.joint;
   if (options.prior.digital) {
-    // No mount and no scan gives a photograph a scale of its own.
+    // No mount and no scan gives a photograph a scale or a shift of its own.
     joint_options.own_view_angle_share = joint_options.own_k1_share;
     joint_options.own_aspect_share = joint_options.own_k1_share;
+    joint_options.own_shift_share = joint_options.own_k1_share;
   }
   TiePoints ties;
   if (options.use_ties) {
@@ -105,14 +113,14 @@ double NatsFor(const AlignedPhotograph& photograph, const ScoreOptions& options)
   return ScoreFromSamples(
              photograph.score_samples, photograph.prior.ProjectionAt(photograph.whitened), options)
              .nats -
-         0.5 * photograph.whitened.squaredNorm();
+         0.5 * photograph.whitened.squaredNorm() + photograph.log_probability;
 }
 
 // Photographs that are not accepted by themselves join those that are where others show the same,
 // each with the camera, its best or its second-best one, that edges and ties together speak for.
 void JoinByTies(const EdgeModel& edge_model,
                 const RegisterOptions& options,
-                const std::vector<const PhotographAlignment*>& barred,
+                const std::vector<PhotographAlignment*>& barred,
                 std::vector<PhotographAlignment>& alignments,
                 PhotographSet& set) {
   struct Candidate {
@@ -155,26 +163,27 @@ void JoinByTies(const EdgeModel& edge_model,
   }
 }
 
-// Takes out the photographs of whose own edges the common solution explains much less than they do
-// by themselves: others have pulled them away. They do not come back. Returns whether there are
-// any.
+// Takes out the photograph of whose own edges the common solution explains the smallest share of
+// what they do by themselves, if that is too little: others have pulled it away. Those that have
+// only joined go first, and none comes back. Returns whether there was one.
 bool TakeOutWorsened(const RegisterOptions& options,
                      PhotographSet& set,
-                     std::vector<const PhotographAlignment*>& barred) {
-  const ScoreOptions& score = options.solutions.score;
-  PhotographSet kept;
+                     std::vector<PhotographAlignment*>& barred) {
+  std::optional<size_t> worst;
+  std::pair<bool, double> worst_rank;  // accepted by itself, and share kept
   for (size_t i = 0; i < set.photographs.size(); ++i) {
-    PhotographAlignment& alignment = *set.alignments[i];
-    const double kept_nats = NatsFor(set.photographs[i], score);
-    if (kept_nats < options.tie_support.least_share_kept * set.alone_nats[i]) {
-      barred.push_back(&alignment);
-    } else {
-      kept.Add(alignment, set.photographs[i], set.alone_nats[i]);
-    }
+    const double kept_nats = NatsFor(set.photographs[i], options.solutions.score);
+    if (kept_nats >= options.tie_support.least_share_kept * set.alone_nats[i]) continue;
+    const std::pair rank(set.alignments[i]->registration.verdict == Verdict::kAccepted,
+                         kept_nats / std::max(1e-9, set.alone_nats[i]));
+    if (worst && rank >= worst_rank) continue;
+    worst = i;
+    worst_rank = rank;
   }
-  const bool any_worsened = kept.photographs.size() < set.photographs.size();
-  set = std::move(kept);
-  return any_worsened;
+  if (!worst) return false;
+  barred.push_back(set.alignments[*worst]);
+  set.TakeOut(*worst);
+  return true;
 }
 
 // What edges and other photographs say for the camera that the set has found. It is scored as the
@@ -228,10 +237,14 @@ void JudgeMember(size_t i,
   registration.verdict = Verdict::kAccepted;
   registration.reasons.clear();
   ApplyJudgement(JudgeFit(evidence, options.verdict), registration);
-  ApplyJudgement(JudgeInnovation(solution.whitened, photograph.prior, options.verdict),
+  ApplyJudgement(JudgeTag(photograph.prior.ParametersAt(solution.whitened),
+                          photograph.written,
+                          photograph.slip,
+                          edge_model.model.unit,
+                          options.verdict),
                  registration);
   registration.undetermined =
-      FindUndetermined(registration.sigmas, photograph.prior, options.verdict);
+      FindUndetermined(registration.sigmas, photograph.written, options.verdict);
 }
 
 }  // namespace
@@ -246,17 +259,22 @@ std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
     set.Add(alignment, alignment.aligned, NatsFor(alignment.aligned, options.solutions.score));
   }
   JointRefinement joint;
-  std::vector<const PhotographAlignment*> barred;
+  std::vector<PhotographAlignment*> barred;
   // Cameras that know of one another show more alike, and more of what they show agrees.
   const int num_rounds = options.use_ties ? options.num_tie_rounds : 1;
   for (int round = 0; round < num_rounds; ++round) {
     if (options.use_ties) JoinByTies(edge_model, options, barred, alignments, set);
     if (set.photographs.size() < 2) return {};
     joint = Refine(edge_model, options, set);
-    if (!TakeOutWorsened(options, set, barred)) continue;
-    if (set.photographs.size() < 2) return {};
-    joint = Refine(edge_model, options, set);
+    while (TakeOutWorsened(options, set, barred)) {
+      if (set.photographs.size() < 2) break;
+      joint = Refine(edge_model, options, set);
+    }
   }
+  for (PhotographAlignment* alignment : barred) {
+    ApplyJudgement(JudgeDisagreement(), alignment->registration);
+  }
+  if (set.photographs.size() < 2) return {};
   const std::vector<TieView> views = ViewsOf(set.photographs);
   tbb::parallel_for(size_t{0}, set.photographs.size(), [&](size_t i) {
     JudgeMember(i, joint.photographs[i], set, views, edge_model, options);

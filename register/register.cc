@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/register.h"
 
+#include "register/notebook_overclaim.h"
 #include "register/refine_set.h"
 #include "scene/error.h"
 #include "scene/formats/ignore_mask.h"
@@ -50,13 +51,22 @@ Registration UnreadableRegistration(const Scene& scene,
   return registration;
 }
 
+std::vector<NamedTag> OtherTags(const Scene& scene, const Photograph& photograph) {
+  std::vector<NamedTag> others;
+  for (const Photograph& other : scene.photographs) {
+    if (other.name != photograph.name) others.push_back({other.name, other.tag});
+  }
+  return others;
+}
+
 // One photograph that spoils its own alignment is news about it, and no end of the others' work.
 PhotographAlignment AlignOrSayWhyNot(const Scene& scene,
                                      const Photograph& photograph,
                                      const std::optional<Lens>& lens,
                                      const EdgeModel& edge_model,
                                      const RegisterOptions& options) {
-  PhotographInput input{photograph.name, {}, {}, photograph.tag, lens};
+  PhotographInput input{
+      photograph.name, {}, {}, photograph.tag, lens, OtherTags(scene, photograph)};
   try {
     input.grey8 = ReadGrey8(photograph.image_file);
     if (photograph.mask_file) input.ignore = ReadIgnoreMask(*photograph.mask_file, photograph.size);
@@ -78,15 +88,12 @@ PhotographAlignment AlignOrSayWhyNot(const Scene& scene,
   }
 }
 
-}  // namespace
-
-RegisteredScene RegisterScene(const Scene& scene,
-                              const std::optional<Lens>& lens,
-                              const RegisterOptions& given_options,
-                              const Progress& progress) {
-  const RegisterOptions options = NamedAsInScene(given_options, scene);
-  options.Check();
-  const EdgeModel edge_model(scene.model);
+// Each photograph by itself, on every core.
+std::vector<PhotographAlignment> AlignAll(const Scene& scene,
+                                          const std::optional<Lens>& lens,
+                                          const EdgeModel& edge_model,
+                                          const RegisterOptions& options,
+                                          const Progress& progress) {
   const int total = static_cast<int>(scene.photographs.size());
   std::vector<PhotographAlignment> alignments(scene.photographs.size());
   ProgressCounter steps(progress, total);
@@ -96,7 +103,26 @@ RegisteredScene RegisterScene(const Scene& scene,
     steps.Tell(photograph.name + " " +
                std::string(VerdictName(alignments[index].registration.verdict)));
   });
+  return alignments;
+}
+
+}  // namespace
+
+RegisteredScene RegisterScene(const Scene& scene,
+                              const std::optional<Lens>& lens,
+                              const RegisterOptions& given_options,
+                              const Progress& progress) {
+  RegisterOptions options = NamedAsInScene(given_options, scene);
+  options.Check();
+  const EdgeModel edge_model(scene.model);
+  std::vector<PhotographAlignment> alignments =
+      AlignAll(scene, lens, edge_model, options, progress);
   RegisteredScene registered;
+  if (const auto overclaim = FindOverclaim(alignments, options.overclaim)) {
+    registered.warnings.push_back(DescribeOverclaim(*overclaim));
+    options.prior.overclaim = *overclaim;
+    alignments = AlignAll(scene, lens, edge_model, options, progress);
+  }
   for (const PhotographAlignment& alignment : alignments) {
     if (!alignment.keep_fault.empty()) registered.warnings.push_back(alignment.keep_fault);
   }

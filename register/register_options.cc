@@ -10,6 +10,8 @@ void RegisterOptions::Check() const {
   const std::string path = "registration options: ";
   prior.Check();
   solutions.Check(path + "solutions.");
+  readings.Check(path + "readings.");
+  overclaim.Check(path + "overclaim.");
   ties.Check(path + "ties.");
   tie_support.Check(path + "tie_support.");
   joint.Check(path + "joint.");

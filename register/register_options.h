@@ -7,6 +7,7 @@
 #include "register/joint/joint_refinement.h"
 #include "register/joint/model_errors.h"
 #include "register/refine/find_solutions.h"
+#include "register/refine/tag_readings.h"
 #include "register/ties/tie_support.h"
 #include "register/verdict/overrule.h"
 #include "register/verdict/verdict.h"
@@ -17,10 +18,23 @@
 
 namespace groundglass {
 
+// When the tags of a scene claim more than they hold (FindOverclaim).
+struct OverclaimOptions {
+  // They do if it is at least so many times too much, and taken to be so many times at the most.
+  double least_overclaim = 1.5;
+  double most_overclaim = 6;
+  int least_photographs = 3;  // so many tell
+
+  // Throws Error naming the first field out of range, behind `path`.
+  void Check(const std::string& path = "overclaim options: ") const;
+};
+
 // The options of all stages, in the order in which they work.
 struct RegisterOptions {
   PriorOptions prior;
   SolutionOptions solutions;
+  ReadingOptions readings;
+  OverclaimOptions overclaim;
   TieOptions ties;
   TieSupportOptions tie_support;
   JointOptions joint;

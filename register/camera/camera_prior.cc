@@ -19,6 +19,8 @@ constexpr double kPosition_m = 0.076;
 constexpr double kHeight_m = 0.030;
 constexpr double kLookat_m = 0.122;
 constexpr double kBestOfRulers_m = 0.001;
+// A direction whose squared length is less than this, in sigmas, is none.
+constexpr double kSingular = 1e-20;
 
 bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -161,6 +163,14 @@ void TakeLens(const Lens& lens, CameraPrior& prior) {
   prior.measured.p2 = lens.p2;
 }
 
+void TakeSquarePixels(const PriorOptions& options, CameraPrior& prior, LensAndSlideSigmas& sigmas) {
+  const double of_frame = static_cast<double>(prior.width_px) / prior.height_px;
+  const double written = prior.mean[kAspect];
+  if (std::abs(written / of_frame - 1) > options.rounded_aspect_share) return;
+  prior.mean[kAspect] = of_frame;
+  sigmas[kAspect - kRoll] = options.digital_aspect_share * of_frame;
+}
+
 void LockParameters(const std::vector<std::string>& names, CameraCovariance& covariance) {
   for (int i = 0; i < kNumCameraParameters; ++i) {
     if (!IsNamed(names, static_cast<CameraParameter>(i))) continue;
@@ -205,6 +215,9 @@ void PriorOptions::Check() const {
   require_positive(k1, "sigma-k1");
   CheckAtLeast(slide_scale_share, 0, "prior options: slide_scale_share");
   CheckAtLeast(slide_aspect_share, 0, "prior options: slide_aspect_share");
+  require_positive(digital_aspect_share, "digital_aspect_share");
+  CheckAtLeast(rounded_aspect_share, 0, "prior options: rounded_aspect_share");
+  CheckFromTo(overclaim, 1, 1e6, "prior options: overclaim");
   RequireParameterNames(lock, "lock");
   RequireParameterNames(free, "free");
   for (const std::string& name : free) {
@@ -229,6 +242,38 @@ Camera CameraPrior::CameraAt(const CameraParameters& whitened) const {
   return CameraFromTag(TagFromParameters(ParametersAt(whitened), measured), width_px, height_px);
 }
 
+CameraParameters CameraPrior::WhitenedAt(const CameraParameters& parameters) const {
+  CameraParameters change = parameters - mean;
+  change[kYaw] = std::remainder(change[kYaw], 360.0);
+  // In units of the sigmas the columns of the root are orthogonal (SetCovariance).
+  CameraCovariance root_in_sigmas = CameraCovariance::Zero();
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (!(sigmas[i] > 0)) {
+      change[i] = 0;
+      continue;
+    }
+    root_in_sigmas.row(i) = root.row(i) / sigmas[i];
+    change[i] /= sigmas[i];
+  }
+  CameraParameters whitened = CameraParameters::Zero();
+  for (int k = 0; k < kNumCameraParameters; ++k) {
+    const double squared_length = root_in_sigmas.col(k).squaredNorm();
+    if (squared_length > kSingular)
+      whitened[k] = root_in_sigmas.col(k).dot(change) / squared_length;
+  }
+  return whitened;
+}
+
+CameraPrior WithWiderPose(const CameraPrior& prior, double factor) {
+  CameraPrior wider = prior;
+  CameraParameters scale = CameraParameters::Ones();
+  scale.head<kNumPose>().setConstant(factor);
+  // Position and direction do not depend on the rest, so their rows can be scaled by themselves.
+  wider.root = scale.asDiagonal() * prior.root;
+  wider.sigmas = scale.cwiseProduct(prior.sigmas);
+  return wider;
+}
+
 CameraPrior MakeCameraPrior(const ViewTag& tag,
                             int width_px,
                             int height_px,
@@ -246,14 +291,18 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
   const Eigen::Matrix<double, kNumPose, kNumMeasured> pose_root =
       PoseByMeasured(tag) * SigmasOfMeasured(tag, noted, unit, options).asDiagonal();
   LensAndSlideSigmas lens_and_slide = SigmasOfTag(tag, noted, options);
-  if (lens) lens_and_slide = SigmasOfLens(*lens, lens_and_slide[0], options);
+  if (lens) {
+    lens_and_slide = SigmasOfLens(*lens, lens_and_slide[0], options);
+  } else if (options.digital && !noted.aspect && !IsNamed(options.free, kAspect)) {
+    TakeSquarePixels(options, prior, lens_and_slide);
+  }
 
   CameraCovariance covariance = CameraCovariance::Zero();
   covariance.topLeftCorner<kNumPose, kNumPose>() = pose_root * pose_root.transpose();
   covariance.diagonal().tail<kNumLensAndSlide>() = lens_and_slide.cwiseAbs2();
   LockParameters(options.lock, covariance);
   SetCovariance(covariance, prior);
-  return prior;
+  return options.overclaim == 1 ? prior : WithWiderPose(prior, options.overclaim);
 }
 
 }  // namespace groundglass

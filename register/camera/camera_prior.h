@@ -36,6 +36,13 @@ struct PriorOptions {
   double slide_scale_share = 0.01;
   double slide_aspect_share = 0.003;
   bool digital = false;  // no mount and no scan: what is true of the lens holds as it is
+  // A digital camera's pixels are square to this share, unless the tag's aspect differs from the
+  // frame's by more than the second: then it is no rounded number.
+  double digital_aspect_share = 0.0002;
+  double rounded_aspect_share = 0.005;
+
+  // How many times larger than stated the standard deviations of position and direction are.
+  double overclaim = 1;
 
   // Parameters held at the tag's values: names of kCameraParameterNames, or "shift" for both.
   std::vector<std::string> lock;
@@ -66,6 +73,8 @@ struct CameraPrior {
   CameraParameters ParametersAt(const CameraParameters& whitened) const {
     return mean + root * whitened;
   }
+  // The same the other way round. Parameters that are locked do not count.
+  CameraParameters WhitenedAt(const CameraParameters& parameters) const;
   ParameterProjection ProjectionAt(const CameraParameters& whitened) const {
     return {ParametersAt(whitened), TagDistortion(measured), width_px, height_px};
   }
@@ -78,5 +87,8 @@ CameraPrior MakeCameraPrior(const ViewTag& tag,
                             LengthUnit unit,
                             const std::optional<Lens>& lens,
                             const PriorOptions& options);
+
+// The same camera with larger standard deviations of position, yaw and pitch, by this factor.
+CameraPrior WithWiderPose(const CameraPrior& prior, double factor);
 
 }  // namespace groundglass

@@ -9,12 +9,11 @@
 namespace groundglass {
 
 SplitPrior SplitIntoOwnAndLens(const CameraPrior& prior, const LensParameters& own_shares) {
-  constexpr int kInCamera[kNumLensParameters] = {kViewAngle, kAspect, kK1};
   SplitPrior parted;
   parted.whole = prior;
   parted.own_root = prior.root;
   for (int i = 0; i < kNumLensParameters; ++i) {
-    const int row = kInCamera[i];
+    const int row = kLensParameters[i];
     parted.own_root.row(row) *= std::sqrt(own_shares[i]);
     parted.lens_root(row, i) = prior.sigmas[row] * std::sqrt(1 - own_shares[i]);
   }

@@ -4,10 +4,14 @@
 
 #include "register/camera/camera_prior.h"
 
+#include <array>
+
 namespace groundglass {
 
-// What the photographs of one lens share: view angle, aspect and k1, in this order.
-constexpr int kNumLensParameters = 3;
+// What the photographs of one lens may share.
+constexpr std::array<CameraParameter, 5> kLensParameters = {
+    kViewAngle, kAspect, kShiftX, kShiftY, kK1};
+constexpr int kNumLensParameters = static_cast<int>(kLensParameters.size());
 using LensParameters = Eigen::Matrix<double, kNumLensParameters, 1>;
 
 // A camera's prior in two parts: the photograph's own, and its lens'. Both blocks are whitened.

@@ -21,6 +21,7 @@ void JointOptions::Check(const std::string& path) const {
   CheckFromTo(own_k1_share, 1e-9, 1, path + "own_k1_share");
   CheckFromTo(own_view_angle_share, 1e-9, 1, path + "own_view_angle_share");
   CheckFromTo(own_aspect_share, 1e-9, 1, path + "own_aspect_share");
+  CheckFromTo(own_shift_share, 1e-9, 1, path + "own_shift_share");
   CheckAbove(tie_loss_sigmas, 0, path + "tie_loss_sigmas");
   CheckAbove(relief_sigmas, 0, path + "relief_sigmas");
   CheckAbove(widest_relief_sigmas, 0, path + "widest_relief_sigmas");

@@ -32,10 +32,11 @@ struct JointOptions {
   double least_shared_offset_sigmas = 0.01 / 0.03;
   double most_shared_offset_sigmas = 1;
   // The part of a prior's variance that is the photograph's own; the rest is its lens', and the
-  // same for all photographs of that lens. Slides have a scale and an aspect of their own.
+  // same for all photographs of that lens. Slides have a scale, an aspect and a shift of their own.
   double own_k1_share = 0.001;
   double own_view_angle_share = 1;
   double own_aspect_share = 1;
+  double own_shift_share = 1;
   // Tie points: what is left of one counts less and less beyond this many of its sigmas (Cauchy).
   double tie_loss_sigmas = 1;
   // How far they lie before or behind their faces: the scale of a distribution with long tails

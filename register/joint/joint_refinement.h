@@ -19,7 +19,7 @@ namespace groundglass {
 
 // One photograph as it was aligned by itself, with what it offers about the camera found.
 struct AlignedPhotograph {
-  CameraPrior prior;
+  CameraPrior prior;                   // of the reading of its tag that fits (TagReading)
   std::vector<CandidateSample> found;  // sorted by edge
   std::shared_ptr<const TiePicture> picture = {};
   CameraParameters whitened = CameraParameters::Zero();
@@ -30,6 +30,10 @@ struct AlignedPhotograph {
   std::optional<double> second_best_nats = {};
   CameraParameters second_best_whitened = CameraParameters::Zero();
   double second_best_distance_px = 0;  // of the photograph itself
+  // How its tag was read (TagReading), and the prior from it as it was written.
+  std::string slip = {};
+  double log_probability = 0;
+  CameraPrior written;
 };
 
 // How far a model edge was found from where the model has it.

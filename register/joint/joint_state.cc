@@ -71,8 +71,11 @@ JointState::JointState(const EdgeModel& edge_model_,
     ties.push_back({FrameOfTiePoint(point, edge_model.sigma), Eigen::Vector3d::Zero()});
   }
   ground.frame = FrameOfGround(edge_model.model, options);
-  const LensParameters own_shares(
-      options.own_view_angle_share, options.own_aspect_share, options.own_k1_share);
+  const LensParameters own_shares{{options.own_view_angle_share,
+                                   options.own_aspect_share,
+                                   options.own_shift_share,
+                                   options.own_shift_share,
+                                   options.own_k1_share}};
   for (size_t p = 0; p < photographs.size(); ++p) {
     const AlignedPhotograph& photograph = photographs[p];
     moving.push_back({SplitIntoOwnAndLens(photograph.prior, own_shares),

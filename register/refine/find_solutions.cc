@@ -60,15 +60,9 @@ class SolutionSearch {
   }
 
   void RefineAndScore(const Hypothesis& start) {
-    Solution solution;
-    solution.start = start;
-    solution.refinement = options_.stages.refine(
-        start.whitened, edge_model_, evidence_, prior_, refine_options_, points_);
-    const ParameterProjection projection = prior_.ProjectionAt(solution.refinement.whitened);
-    solution.score =
-        options_.stages.score(solution.refinement.samples, projection, evidence_, options_.score);
-    solution.control_point_nats = ControlPointNats(points_, projection);
-    solutions_.push_back(std::move(solution));
+    SolutionOptions options = options_;
+    options.refine = refine_options_;
+    solutions_.push_back(SolveFrom(start, edge_model_, evidence_, prior_, points_, options));
   }
 
   void SearchPrior(const std::vector<EdgeSample>& samples) {
@@ -148,12 +142,30 @@ std::vector<Solution> FindSolutions(const EdgeModel& edge_model,
   return SolutionSearch(edge_model, evidence, prior, points, options).Run();
 }
 
-SecondBest FindSecondBest(const std::vector<Solution>& solutions,
+Solution SolveFrom(const Hypothesis& start,
+                   const EdgeModel& edge_model,
+                   const EdgeEvidence& evidence,
+                   const CameraPrior& prior,
+                   const std::vector<ControlPoint>& points,
+                   const SolutionOptions& options) {
+  Solution solution;
+  solution.start = start;
+  solution.refinement =
+      options.stages.refine(start.whitened, edge_model, evidence, prior, options.refine, points);
+  const ParameterProjection projection = prior.ProjectionAt(solution.refinement.whitened);
+  solution.score =
+      options.stages.score(solution.refinement.samples, projection, evidence, options.score);
+  solution.control_point_nats = ControlPointNats(points, projection);
+  return solution;
+}
+
+SecondBest FindSecondBest(const Solution& best,
+                          const CameraPrior& best_prior,
+                          const std::vector<Solution>& solutions,
                           const CameraPrior& prior,
                           const SolutionOptions& options) {
-  const Refinement& best = solutions.front().refinement;
-  const std::vector<Eigen::Vector3d> points_in_world = PointsOf(best.samples);
-  const ParameterProjection projection = prior.ProjectionAt(best.whitened);
+  const std::vector<Eigen::Vector3d> points_in_world = PointsOf(best.refinement.samples);
+  const ParameterProjection projection = best_prior.ProjectionAt(best.refinement.whitened);
   for (const Solution& solution : solutions) {
     const double distance_px = MeanDisplacementPx(
         points_in_world, projection, prior.ProjectionAt(solution.refinement.whitened));

@@ -77,13 +77,24 @@ std::vector<Solution> FindSolutions(const EdgeModel& edge_model,
                                     const std::vector<ControlPoint>& points,
                                     const SolutionOptions& options);
 
-// The best of the solutions that lie elsewhere than the first, with how far away it lies on
-// average where the first sees edges, in pixels of the prior's picture; null if there is none.
+// Where refinement ends from one start, with its score. points: as above.
+Solution SolveFrom(const Hypothesis& start,
+                   const EdgeModel& edge_model,
+                   const EdgeEvidence& evidence,
+                   const CameraPrior& prior,
+                   const std::vector<ControlPoint>& points,
+                   const SolutionOptions& options);
+
+// The first of the solutions that lies elsewhere than the best one, with how far away it lies on
+// average where that one sees edges, in pixels of the priors' picture; null if there is none. Each
+// is in whitened parameters of its prior.
 struct SecondBest {
   const Solution* solution = nullptr;
   double distance_px = 0;
 };
-SecondBest FindSecondBest(const std::vector<Solution>& solutions,
+SecondBest FindSecondBest(const Solution& best,
+                          const CameraPrior& best_prior,
+                          const std::vector<Solution>& solutions,
                           const CameraPrior& prior,
                           const SolutionOptions& options);
 

@@ -51,6 +51,7 @@ void TieSupportOptions::Check(const std::string& path) const {
   CheckAbove(relief_sigmas, 0, path + "relief_sigmas");
   CheckFromTo(least_matches_to_join, 1, 1e6, path + "least_matches_to_join");
   CheckFromTo(least_share_to_join, 0, 1, path + "least_share_to_join");
+  CheckFromTo(least_agreeing_share_to_join, 0, 1, path + "least_agreeing_share_to_join");
   CheckFromTo(least_share_kept, 0, 1, path + "least_share_kept");
   CheckAtLeast(most_matches, 1, path + "most_matches");
 }
@@ -67,8 +68,12 @@ double CountedLead(const TieSupport& first,
 }
 
 bool MayJoin(const TieSupport& support, const TieSupportOptions& options) {
+  const bool is_much_found = support.num_matched >= options.least_share_to_join * support.num_tried;
+  const bool is_found_in_place =
+      support.num_agreeing >= options.least_matches_to_join &&
+      support.num_agreeing >= options.least_agreeing_share_to_join * support.num_matched;
   return support.num_matched >= options.least_matches_to_join &&
-         support.num_matched >= options.least_share_to_join * support.num_tried;
+         (is_much_found || is_found_in_place);
 }
 
 TieSupport MeasureTieSupport(int photograph,

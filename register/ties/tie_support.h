@@ -20,9 +20,11 @@ struct TieSupportOptions {
   // model.
   double relief_sigmas = 5;
   // A photograph that is not accepted by itself is refined together with others if so many of its
-  // patches are found in them, and this share of those that are sought.
+  // patches are found in them, and this share of those that are sought; or if so many are found
+  // where the cameras expect them, and this share of those that are found.
   int least_matches_to_join = 6;
   double least_share_to_join = 0.1;
+  double least_agreeing_share_to_join = 0.7;
   // One whose camera keeps less than this share of what its own edges said for it, once it is
   // solved together with others, stays alone: they have pulled it away.
   double least_share_kept = 0.1;

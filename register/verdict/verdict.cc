@@ -32,6 +32,38 @@ std::string LeastCertain(const Registration& registration) {
   return std::string(kCameraParameterNames[least]);
 }
 
+// How a camera differs from its tag, as a person would say it: "x 3.8 ft further east". change: in
+// `site`.
+std::string DescribeChange(CameraParameter parameter, double change, LengthUnit unit) {
+  const auto say = [&](const std::string& unit_name, const char* if_more, const char* if_less) {
+    return Format("%s %.3g%s %s",
+                  kCameraParameterNames[parameter].data(),
+                  std::abs(change),
+                  unit_name.c_str(),
+                  change > 0 ? if_more : if_less);
+  };
+  const std::string length = " " + UnitName(unit);
+  const std::string angle = " degrees";
+  switch (parameter) {
+    case kPositionX:
+      return say(length, "further east", "further west");
+    case kPositionY:
+      return say(length, "further south", "further north");
+    case kPositionZ:
+      return say(length, "higher", "lower");
+    case kYaw:
+      return say(angle, "further left", "further right");
+    case kPitch:
+      return say(angle, "higher", "lower");
+    case kRoll:
+      return say(angle, "more", "less");
+    case kViewAngle:
+      return say(angle, "wider", "narrower");
+    default:
+      return say("", "more", "less");
+  }
+}
+
 // Joins one more finding to a judgement.
 void Add(Verdict verdict, const std::string& reason, Judgement& judgement) {
   judgement.verdict = std::max(judgement.verdict, verdict);
@@ -121,10 +153,29 @@ Judgement JudgeConvergence(Refinement::Outcome outcome) {
   return {};
 }
 
-Judgement JudgeInnovation(const CameraParameters& whitened,
-                          const CameraPrior& prior,
+Judgement JudgeInnovation(const CameraParameters& parameters,
+                          const CameraPrior& written,
+                          LengthUnit unit,
                           const VerdictOptions& options) {
   Judgement judgement;
+  const CameraParameters whitened = written.WhitenedAt(parameters);
+  const CameraParameters change = SiteChange(written.root * whitened);
+  std::string differs;
+  std::string times;
+  for (int i = 0; i < kNumCameraParameters; ++i) {
+    if (!(written.sigmas[i] > 0)) continue;
+    const double sigmas = std::abs(change[i]) / written.sigmas[i];
+    if (sigmas <= options.max_prior_sigmas) continue;
+    const char* separator = differs.empty() ? "" : ", ";
+    differs += separator + DescribeChange(static_cast<CameraParameter>(i), change[i], unit);
+    times += separator + Format("%.1f", sigmas);
+  }
+  if (!differs.empty()) {
+    Add(Verdict::kReview,
+        "other than written: " + differs + "; " + times + " times what the tag's sigmas claim",
+        judgement);
+    return judgement;
+  }
   const double chi_squared = whitened.squaredNorm();
   if (chi_squared > options.max_prior_chi_squared) {
     Add(Verdict::kReview,
@@ -133,19 +184,22 @@ Judgement JudgeInnovation(const CameraParameters& whitened,
                chi_squared),
         judgement);
   }
-  const CameraParameters change = SiteChange(prior.root * whitened);
-  for (int i = 0; i < kNumCameraParameters; ++i) {
-    if (!(prior.sigmas[i] > 0)) continue;
-    const double sigmas = std::abs(change[i]) / prior.sigmas[i];
-    if (sigmas <= options.max_prior_sigmas) continue;
-    Add(Verdict::kReview,
-        Format("%s would move by %.3g, %.1f of its standard deviations",
-               kCameraParameterNames[i].data(),
-               change[i],
-               sigmas),
-        judgement);
-  }
   return judgement;
+}
+
+Judgement JudgeTag(const CameraParameters& parameters,
+                   const CameraPrior& written,
+                   const std::string& slip,
+                   LengthUnit unit,
+                   const VerdictOptions& options) {
+  if (slip.empty()) return JudgeInnovation(parameters, written, unit, options);
+  return {Verdict::kReview, {"the photograph does not fit its tag as written, but with " + slip}};
+}
+
+Judgement JudgeDisagreement() {
+  return {Verdict::kReview,
+          {"its own edges and the other photographs do not agree on one camera; the one that its "
+           "own edges say is given"}};
 }
 
 Judgement JudgePrecision(const Registration& registration, const VerdictOptions& options) {

@@ -6,6 +6,7 @@
 #include "register/camera/control_points.h"
 #include "register/refine/refine_photograph.h"
 #include "register/search/score.h"
+#include "scene/length_unit.h"
 #include "scene/registration.h"
 
 #include <optional>
@@ -73,10 +74,23 @@ Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options);
 Judgement JudgeConvergence(Refinement::Outcome outcome);
 
 // Innovation: review where the change from prior to solution is larger than the tag's sigmas allow,
-// as a whole (chi-squared) or in one parameter. whitened: the solution.
-Judgement JudgeInnovation(const CameraParameters& whitened,
-                          const CameraPrior& prior,
+// as a whole (chi-squared) or in one parameter. written: the prior from the tag as it was written.
+// unit: the model's.
+Judgement JudgeInnovation(const CameraParameters& parameters,
+                          const CameraPrior& written,
+                          LengthUnit unit,
                           const VerdictOptions& options);
+
+// Review where the camera fits another reading of the tag (TagReading::slip) than the written one,
+// which is the one that is judged if there is no slip (JudgeInnovation).
+Judgement JudgeTag(const CameraParameters& parameters,
+                   const CameraPrior& written,
+                   const std::string& slip,
+                   LengthUnit unit,
+                   const VerdictOptions& options);
+
+// Review where the other photographs pull a camera away from what its own edges say.
+Judgement JudgeDisagreement();
 
 // Precision: review where the model's points stay less certain than options.max_vertex_sigma_px.
 // The last to judge: other photographs may have made them certain.

@@ -3,6 +3,7 @@
 #include "scene/formats/textured_model_io.h"
 
 #include "scene/formats/atomic_file.h"
+#include "scene/formats/image_io.h"
 #include "scene/formats/obj_io.h"
 #include "scene/text.h"
 

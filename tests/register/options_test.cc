@@ -8,6 +8,50 @@
 namespace groundglass {
 namespace {
 
+TEST(ReadingOptions, CheckNamesEachField) {
+  [[maybe_unused]] const auto& [doubt,
+                                beyond,
+                                factor,
+                                share,
+                                shared,
+                                slips,
+                                slips_in_all,
+                                slip,
+                                num,
+                                grid,
+                                climbs,
+                                least_wider,
+                                least_slip,
+                                lead] = ReadingOptions();
+  ExpectCheckNamesEach<ReadingOptions>({
+      {"doubt_below_nats_per_observation",
+       [](auto& o) { o.doubt_below_nats_per_observation = -1; }},
+      {"doubt_beyond_sigmas", [](auto& o) { o.doubt_beyond_sigmas = 0; }},
+      {"wider_factor", [](auto& o) { o.wider_factor = 0.9; }},
+      {"wider_share", [](auto& o) { o.wider_share = 0; }},
+      {"num_shared", [](auto& o) { o.num_shared = -1; }},
+      {"slips_below_nats_per_observation",
+       [](auto& o) { o.slips_below_nats_per_observation = -1; }},
+      {"slips_below_nats", [](auto& o) { o.slips_below_nats = -1; }},
+      {"slip_share", [](auto& o) { o.slip_share = 2; }},
+      {"num_slips", [](auto& o) { o.num_slips = -1; }},
+      {"glance_grid_points", [](auto& o) { o.glance_grid_points = 0; }},
+      {"glance_climbs", [](auto& o) { o.glance_climbs = 0; }},
+      {"min_wider_nats", [](auto& o) { o.min_wider_nats = -1; }},
+      {"min_slip_nats", [](auto& o) { o.min_slip_nats = -1; }},
+      {"min_slip_lead_nats", [](auto& o) { o.min_slip_lead_nats = -1; }},
+  });
+}
+
+TEST(OverclaimOptions, CheckNamesEachField) {
+  [[maybe_unused]] const auto& [least, most, photographs] = OverclaimOptions();
+  ExpectCheckNamesEach<OverclaimOptions>({
+      {"least_overclaim", [](auto& o) { o.least_overclaim = 0.5; }},
+      {"most_overclaim", [](auto& o) { o.most_overclaim = 0; }},
+      {"least_photographs", [](auto& o) { o.least_photographs = 0; }},
+  });
+}
+
 TEST(RegistrationOptions, CheckNamesEachFieldOfTheSearch) {
   [[maybe_unused]] const auto& [reach,
                                 width,
@@ -128,6 +172,7 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfRefinement) {
                                 k1,
                                 view_angle,
                                 aspect,
+                                own_shift,
                                 tie_loss,
                                 relief,
                                 widest_relief,
@@ -151,6 +196,7 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfRefinement) {
       {"own_k1_share", [](auto& o) { o.own_k1_share = 0; }},
       {"own_view_angle_share", [](auto& o) { o.own_view_angle_share = 1.1; }},
       {"own_aspect_share", [](auto& o) { o.own_aspect_share = kNotANumber; }},
+      {"own_shift_share", [](auto& o) { o.own_shift_share = 0; }},
       {"tie_loss_sigmas", [](auto& o) { o.tie_loss_sigmas = 0; }},
       {"relief_sigmas", [](auto& o) { o.relief_sigmas = -1; }},
       {"widest_relief_sigmas", [](auto& o) { o.widest_relief_sigmas = kInfinity; }},
@@ -184,6 +230,9 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfThePrior) {
                                 scale,
                                 slide_aspect,
                                 digital,
+                                digital_aspect,
+                                rounded_aspect,
+                                prior_overclaim,
                                 lock,
                                 free] = PriorOptions();
   ExpectCheckNamesEach<PriorOptions>({
@@ -200,6 +249,9 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfThePrior) {
       {"sigma-k1", [](auto& o) { o.k1 = kNotANumber; }},
       {"slide_scale_share", [](auto& o) { o.slide_scale_share = -1; }},
       {"slide_aspect_share", [](auto& o) { o.slide_aspect_share = kNotANumber; }},
+      {"digital_aspect_share", [](auto& o) { o.digital_aspect_share = 0; }},
+      {"rounded_aspect_share", [](auto& o) { o.rounded_aspect_share = -1; }},
+      {"overclaim", [](auto& o) { o.overclaim = 0.5; }},
       {"option lock", [](auto& o) { o.lock = {"zoom"}; }},
       {"option free", [](auto& o) { o.free = {"zoom"}; }},
   });
@@ -228,7 +280,7 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTies) {
       {"num_levels", [](auto& o) { o.num_levels = 0; }},
       {"match.min_lead", [](auto& o) { o.match.min_lead = -1; }},
   });
-  [[maybe_unused]] const auto& [nats, miss, loss, relief, matches, join_share, kept, most] =
+  [[maybe_unused]] const auto& [nats, miss, loss, relief, matches, join_share, place, kept, most] =
       TieSupportOptions();
   ExpectCheckNamesEach<TieSupportOptions>({
       {"match_nats", [](auto& o) { o.match_nats = 0; }},
@@ -237,6 +289,7 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTies) {
       {"relief_sigmas", [](auto& o) { o.relief_sigmas = 0; }},
       {"least_matches_to_join", [](auto& o) { o.least_matches_to_join = 0; }},
       {"least_share_to_join", [](auto& o) { o.least_share_to_join = 2; }},
+      {"least_agreeing_share_to_join", [](auto& o) { o.least_agreeing_share_to_join = -1; }},
       {"least_share_kept", [](auto& o) { o.least_share_kept = 2; }},
       {"most_matches", [](auto& o) { o.most_matches = 0; }},
   });
@@ -245,6 +298,8 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTies) {
 TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
   [[maybe_unused]] const auto& [prior,
                                 solutions,
+                                readings,
+                                overclaim,
                                 ties,
                                 tie_support,
                                 joint,
@@ -264,6 +319,8 @@ TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
       {"solutions.refine.matching.gate_deg",
        [](auto& o) { o.solutions.refine.matching.gate_deg = 0; }},
       {"solutions.score.noise_px", [](auto& o) { o.solutions.score.noise_px = 0; }},
+      {"readings.wider_factor", [](auto& o) { o.readings.wider_factor = 0.5; }},
+      {"overclaim.least_overclaim", [](auto& o) { o.overclaim.least_overclaim = 0; }},
       {"ties.grid_columns", [](auto& o) { o.ties.grid_columns = 0; }},
       {"tie_support.match_nats", [](auto& o) { o.tie_support.match_nats = 0; }},
       {"num_tie_rounds", [](auto& o) { o.num_tie_rounds = 0; }},

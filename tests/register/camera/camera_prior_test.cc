@@ -129,6 +129,47 @@ TEST(CameraPrior, ALensFileReplacesTheLensInTheTag) {
   EXPECT_NEAR(slide.sigmas[6], std::hypot(0.02, wider), 0.01);
 }
 
+TEST(CameraPrior, WhitenedParametersAreThoseOfTheCamera) {
+  PriorOptions options;
+  options.lock = {"v"};
+  const CameraPrior prior = MakeCameraPrior(LevelTag(), 600, 400, LengthUnit::kFoot, {}, options);
+  const CameraParameters parameters = prior.ParametersAt(CameraParameters::LinSpaced(-2, 3));
+  EXPECT_TRUE(prior.ParametersAt(prior.WhitenedAt(parameters)).isApprox(parameters, 1e-9));
+  CameraParameters turned = parameters;
+  turned[kYaw] += 360;
+  EXPECT_TRUE(prior.WhitenedAt(turned).isApprox(prior.WhitenedAt(parameters), 1e-9));
+}
+
+TEST(CameraPrior, AWiderPoseScalesPositionAndDirectionOnly) {
+  const CameraPrior prior = MakeCameraPrior(LevelTag(), 600, 400, LengthUnit::kFoot, {}, {});
+  const CameraPrior wider = WithWiderPose(prior, 3);
+  const CameraCovariance before = CovarianceOf(prior);
+  const CameraCovariance after = CovarianceOf(wider);
+  EXPECT_TRUE((after.topLeftCorner<5, 5>()).isApprox(9 * before.topLeftCorner<5, 5>(), 1e-9));
+  EXPECT_TRUE((after.bottomRightCorner<6, 6>()).isApprox(before.bottomRightCorner<6, 6>(), 1e-9));
+  EXPECT_NEAR(wider.sigmas[kYaw], 3 * prior.sigmas[kYaw], 1e-12);
+  PriorOptions overclaimed;
+  overclaimed.overclaim = 3;
+  EXPECT_TRUE(
+      CovarianceOf(MakeCameraPrior(LevelTag(), 600, 400, LengthUnit::kFoot, {}, overclaimed))
+          .isApprox(after, 1e-12));
+}
+
+TEST(CameraPrior, ADigitalCamerasPixelsAreSquare) {
+  PriorOptions digital;
+  digital.digital = true;
+  ViewTag tag = LevelTag();
+  tag.aspect = 1.5;  // rounded
+  const auto prior = [&] { return MakeCameraPrior(tag, 640, 427, LengthUnit::kFoot, {}, digital); };
+  EXPECT_DOUBLE_EQ(prior().mean[kAspect], 640.0 / 427);
+  EXPECT_LT(prior().sigmas[kAspect], 0.001);
+  tag.aspect = 1.45;  // no rounded number: these pixels are not square
+  EXPECT_DOUBLE_EQ(prior().mean[kAspect], 1.45);
+  tag.aspect = 1.5;
+  tag.sigmas.aspect = 0.01;  // the tag's own word wins
+  EXPECT_DOUBLE_EQ(prior().mean[kAspect], 1.5);
+}
+
 TEST(CameraPrior, AnUnknownLockNamesTheOnesThereAre) {
   PriorOptions options;
   options.lock = {"zoom"};

@@ -18,7 +18,7 @@ CameraPrior PriorOfATag() {
 
 TEST(SplitIntoOwnAndLens, ThePartsTogetherHaveTheWholesCovariance) {
   const CameraPrior prior = PriorOfATag();
-  const SplitPrior split = SplitIntoOwnAndLens(prior, LensParameters(0.7, 0.2, 0.001));
+  const SplitPrior split = SplitIntoOwnAndLens(prior, LensParameters{{0.7, 0.2, 1, 1, 0.001}});
   const CameraCovariance covariance =
       split.own_root * split.own_root.transpose() + split.lens_root * split.lens_root.transpose();
   EXPECT_TRUE(covariance.isApprox(prior.root * prior.root.transpose(), 1e-12));
@@ -26,7 +26,7 @@ TEST(SplitIntoOwnAndLens, ThePartsTogetherHaveTheWholesCovariance) {
 
 TEST(SplitIntoOwnAndLens, ALensPartHoldsItsShareOfTheVariance) {
   const CameraPrior prior = PriorOfATag();
-  const SplitPrior split = SplitIntoOwnAndLens(prior, LensParameters(0.7, 0.2, 0.001));
+  const SplitPrior split = SplitIntoOwnAndLens(prior, LensParameters{{0.7, 0.2, 1, 1, 0.001}});
   const double variance = prior.sigmas[kK1] * prior.sigmas[kK1];
   EXPECT_NEAR(split.lens_root.row(kK1).squaredNorm(), 0.999 * variance, 1e-12);
   EXPECT_NEAR(split.own_root.row(kK1).squaredNorm(), 0.001 * variance, 1e-12);
@@ -35,9 +35,9 @@ TEST(SplitIntoOwnAndLens, ALensPartHoldsItsShareOfTheVariance) {
 
 TEST(SplitIntoOwnAndLens, ItsMapGivesTheWholesWhitenedParametersBack) {
   const CameraPrior prior = PriorOfATag();
-  const SplitPrior split = SplitIntoOwnAndLens(prior, LensParameters(0.7, 0.2, 0.5));
+  const SplitPrior split = SplitIntoOwnAndLens(prior, LensParameters{{0.7, 0.2, 0.3, 0.3, 0.5}});
   const CameraParameters own = CameraParameters::LinSpaced(-1, 2);
-  const LensParameters lens(0.3, -0.4, 1.2);
+  const LensParameters lens{{0.3, -0.4, 0.7, 0, 1.2}};
   Eigen::Matrix<double, kNumCameraParameters + kNumLensParameters, 1> parts;
   parts << own, lens;
   const CameraParameters change = split.own_root * own + split.lens_root * lens;

@@ -226,15 +226,20 @@ TEST(RefineSet, DigitalPhotographsOfOneLensEndWithOneViewAngleAndAspect) {
     RefineSet(edge_model, options, alignments);
     double view_angle_spread_deg = 0;
     double aspect_spread = 0;
+    double shift_spread = 0;
     const ViewTag& first = alignments[0].registration.corrected;
     for (const PhotographAlignment& alignment : alignments) {
       const ViewTag& tag = alignment.registration.corrected;
       view_angle_spread_deg =
           std::max(view_angle_spread_deg, std::abs(tag.view_angle_deg - first.view_angle_deg));
       aspect_spread = std::max(aspect_spread, std::abs(tag.aspect - first.aspect));
+      shift_spread = std::max({shift_spread,
+                               std::abs(tag.shift_x - first.shift_x),
+                               std::abs(tag.shift_y - first.shift_y)});
     }
     EXPECT_EQ(view_angle_spread_deg < 0.02, digital) << view_angle_spread_deg;
     EXPECT_EQ(aspect_spread < 0.0005, digital) << aspect_spread;
+    EXPECT_EQ(shift_spread < 0.0005, digital) << shift_spread;
   }
 }
 

@@ -22,7 +22,7 @@ class Fixture {
     tag.view_angle_deg = 54;
     tag.k1 = -0.05;
     prior_ = SplitIntoOwnAndLens(MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, {}),
-                                 LensParameters(0.6, 0.3, 0.2));
+                                 LensParameters{{0.6, 0.3, 0.5, 0.4, 0.2}});
     frame_.across << 0.1, 0, 0.02, 0.09, 0, 0.05;
     frame_.turn_ratio = 0.7;
     const ParameterProjection projection =

@@ -17,7 +17,7 @@ struct Fixture {
     tag.view_angle_deg = 54;
     tag.k1 = -0.05;
     prior = SplitIntoOwnAndLens(MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, {}),
-                                LensParameters(0.6, 0.3, 0.2));
+                                LensParameters{{0.6, 0.3, 0.5, 0.4, 0.2}});
     TiePoint point;
     point.point_in_world = {21, 2, 10};
     point.normal_in_world = Eigen::Vector3d(0.1, -1, 0.2).normalized();

@@ -104,19 +104,23 @@ TEST(FindSolutions, WhereThePriorBendsItSearchesAgainUntilAScoreIsGood) {
   EXPECT_EQ(fixture.num_searches, 1);
 }
 
+SecondBest FindElsewhere(const std::vector<Solution>& solutions, const Fixture& fixture) {
+  return FindSecondBest(
+      solutions.front(), fixture.prior, solutions, fixture.prior, fixture.options);
+}
+
 TEST(FindSecondBest, IsTheBestThatLiesElsewhere) {
   Fixture fixture;
   const std::vector<Solution> solutions = fixture.Find();
-  const CameraPrior& prior = fixture.prior;
   fixture.options.distinct_distance_px = 0;
-  const SecondBest near = FindSecondBest(solutions, prior, fixture.options);
+  const SecondBest near = FindElsewhere(solutions, fixture);
   EXPECT_EQ(near.solution, &solutions[1]);
   EXPECT_GT(near.distance_px, 0);
   // Beyond the second but not the third, at a width of 1200.
   fixture.options.distinct_distance_px = near.distance_px * 1200 / kWidth;
-  EXPECT_EQ(FindSecondBest(solutions, prior, fixture.options).solution, &solutions[2]);
+  EXPECT_EQ(FindElsewhere(solutions, fixture).solution, &solutions[2]);
   fixture.options.distinct_distance_px = 1e6;
-  EXPECT_EQ(FindSecondBest(solutions, prior, fixture.options).solution, nullptr);
+  EXPECT_EQ(FindElsewhere(solutions, fixture).solution, nullptr);
 }
 
 }  // namespace

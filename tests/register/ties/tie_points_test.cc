@@ -142,5 +142,14 @@ TEST(MayJoin, AsksForANumberAndAShare) {
   EXPECT_FALSE(MayJoin({0, 70, 6, 0}, options));
 }
 
+TEST(MayJoin, AFewThatAreAllFoundInPlaceAreEnough) {
+  TieSupportOptions options;
+  options.least_matches_to_join = 6;
+  options.least_agreeing_share_to_join = 0.7;
+  EXPECT_TRUE(MayJoin({0, 300, 10, 7}, options));
+  EXPECT_FALSE(MayJoin({0, 300, 10, 6}, options));
+  EXPECT_FALSE(MayJoin({0, 300, 5, 5}, options));
+}
+
 }  // namespace
 }  // namespace groundglass

@@ -77,24 +77,41 @@ CameraPrior IndependentPrior() {
   return prior;
 }
 
+// whitened: how far the camera lies from the prior's mean.
+Judgement JudgeChange(const CameraParameters& whitened) {
+  const CameraPrior prior = IndependentPrior();
+  return JudgeInnovation(prior.ParametersAt(whitened), prior, LengthUnit::kFoot, {});
+}
+
 TEST(JudgeInnovation, AChangeWithinTheSigmasIsAccepted) {
-  // Eleven times 1.6 squared is 28.2, below 31.3.
-  const CameraParameters whitened = CameraParameters::Constant(1.6);
-  EXPECT_EQ(JudgeInnovation(whitened, IndependentPrior(), {}).verdict, Verdict::kAccepted);
+  // Ten times 1.6 squared is 25.6, below 31.3; the locked one does not count.
+  EXPECT_EQ(JudgeChange(CameraParameters::Constant(1.6)).verdict, Verdict::kAccepted);
 }
 
 TEST(JudgeInnovation, ManySmallChangesAreTooMuchTogether) {
-  const CameraParameters whitened = CameraParameters::Constant(1.7);
-  const Judgement judgement = JudgeInnovation(whitened, IndependentPrior(), {});
+  const Judgement judgement = JudgeChange(CameraParameters::Constant(1.8));
   EXPECT_EQ(judgement.verdict, Verdict::kReview);
   EXPECT_THAT(judgement.reasons, ElementsAre(HasSubstr("chi-squared 32 of 11")));
 }
 
-TEST(JudgeInnovation, OneParameterThatMovesTooFarIsNamed) {
+TEST(JudgeInnovation, ParametersThatMoveTooFarAreTold) {
   CameraParameters whitened = CameraParameters::Zero();
-  whitened[2] = 4;
-  const Judgement judgement = JudgeInnovation(whitened, IndependentPrior(), {});
-  EXPECT_THAT(judgement.reasons, ElementsAre("z would move by 8, 4.0 of its standard deviations"));
+  whitened[kPositionZ] = 4;
+  EXPECT_THAT(JudgeChange(whitened).reasons,
+              ElementsAre("other than written: z 8 ft higher; 4.0 times what the tag's sigmas "
+                          "claim"));
+  whitened[kPositionY] = 5;  // north in `world`
+  EXPECT_THAT(JudgeChange(whitened).reasons,
+              ElementsAre("other than written: y 10 ft further north, z 8 ft higher; 5.0, 4.0 "
+                          "times what the tag's sigmas claim"));
+}
+
+TEST(JudgeTag, WhatFitsAnotherReadingOnlyIsReviewed) {
+  const CameraPrior prior = IndependentPrior();
+  EXPECT_EQ(JudgeTag(prior.mean, prior, "", LengthUnit::kFoot, {}).verdict, Verdict::kAccepted);
+  const Judgement slip = JudgeTag(prior.mean, prior, "x and y exchanged", LengthUnit::kFoot, {});
+  EXPECT_EQ(slip.verdict, Verdict::kReview);
+  EXPECT_THAT(slip.reasons, ElementsAre(HasSubstr("but with x and y exchanged")));
 }
 
 TEST(FindUndetermined, NamesWhatAPhotographDidNotNarrow) {
