@@ -149,7 +149,8 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   // The cameras that fit, the best, and the best one elsewhere.
   const std::vector<Solution> solutions =
       FindSolutions(edge_model, evidence, prior, points, options.solutions);
-  alignment.keep_fault = KeepIfAsked({photograph, edge_model, prior, evidence, solutions}, options);
+  alignment.keep_fault = KeepIfAsked(
+      {photograph.name, photograph.grey8, edge_model, prior, evidence, solutions}, options);
   if (solutions.empty()) {
     registration.reasons.push_back("the measured tag sees almost nothing of the model");
     registration.covariance = prior.root * prior.root.transpose();

@@ -97,9 +97,6 @@ RegisteredScene RegisterScene(const Scene& scene,
                std::string(VerdictName(alignments[index].registration.verdict)));
   });
   RegisteredScene registered;
-  for (const PhotographAlignment& alignment : alignments) {
-    if (!alignment.keep_fault.empty()) registered.warnings.push_back(alignment.keep_fault);
-  }
   if (!options.independent) {
     try {
       registered.model_errors = FindModelErrors(
@@ -113,6 +110,7 @@ RegisteredScene RegisterScene(const Scene& scene,
   }
   for (PhotographAlignment& alignment : alignments) {
     FinishVerdict(options, alignment);
+    if (!alignment.keep_fault.empty()) registered.warnings.push_back(alignment.keep_fault);
     registered.registrations.push_back(std::move(alignment.registration));
   }
   for (const UnreadablePhotograph& unreadable : scene.unreadable) {
