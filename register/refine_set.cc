@@ -54,10 +54,10 @@ std::vector<TieView> ViewsOf(const std::vector<AlignedPhotograph>& photographs) 
 
 // Why what joint refinement took and gave could not be kept; empty if it was, or nobody asked.
 std::string KeepJointIfAsked(const PhotographSet& set,
-                        const std::vector<int>& lenses,
-                        const TiePoints& ties,
-                        const JointRefinement& joint,
-                        const RegisterOptions& options) {
+                             const std::vector<int>& lenses,
+                             const TiePoints& ties,
+                             const JointRefinement& joint,
+                             const RegisterOptions& options) {
   if (options.keep_folder.empty()) return "";
   JointStage stage{{}, {}, set.photographs, lenses, ties.points, joint};
   for (const PhotographAlignment* alignment : set.alignments) {
