@@ -9,6 +9,8 @@ usage() {
 ./test.sh [OPTIONS] [-- CTEST ARGUMENTS]
   (none)       build with optimisation, run every test
   --sanitize   the same under AddressSanitizer and UndefinedBehaviorSanitizer
+  --sanitize-readers
+               under these, only what reads files from elsewhere: scene and tests/fuzz
   --long       every test, longer fuzzing, the benchmarks, then --sanitize
   --tidy       build under clang-tidy; warnings are errors
   --format     check the formatting only; nothing is built
@@ -24,6 +26,7 @@ install=yes
 while (($#)); do
   case $1 in
     --sanitize) preset=dev ;;
+    --sanitize-readers) preset=readers ;;
     --long) long=yes ;;
     --tidy) preset=tidy ;;
     --format) preset=format ;;
@@ -46,13 +49,13 @@ if [[ $preset == format ]]; then
   exit 0
 fi
 
-# configure_and_build PRESET: with ccache where the machine has it.
+# configure_and_build PRESET [TARGET]: with ccache where the machine has it.
 configure_and_build() {
   local launcher=()
   if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   echo "== Configuring and building ($1)"
   cmake --log-level=WARNING --preset "$1" "${launcher[@]}"
-  cmake --build --preset "$1"
+  cmake --build --preset "$1" ${2:+--target "$2"}
 }
 
 if [[ $preset == tidy ]]; then
@@ -63,6 +66,12 @@ if [[ $preset == tidy ]]; then
 fi
 
 packages build test
+if [[ $preset == readers ]]; then
+  configure_and_build dev fuzz_tests
+  echo "== Testing (dev, damaged files)"
+  ctest --preset dev -j "$(nproc)" -R '^fuzz/' "$@"
+  exit 0
+fi
 if [[ $long == yes ]]; then export GROUNDGLASS_FUZZ_ROUNDS=200000; fi
 configure_and_build "$preset"
 echo "== Testing ($preset)"

@@ -5,31 +5,20 @@
 #include "scene/advice/standpoint.h"
 #include "scene/formats/text_encoding.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 namespace groundglass {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-__attribute__((format(printf, 1, 2))) std::string Printed(const char* format, ...) {
-  std::array<char, 2000> text;
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  return text.data();
-}
-
 std::string FormatSize(const Eigen::Vector3d& size, double scale, const std::string& unit) {
-  return Printed(
-      "%.4g x %.4g x %.4g %s", size.x() * scale, size.y() * scale, size.z() * scale, unit.c_str());
+  return fmt::format(
+      "{:.4g} x {:.4g} x {:.4g} {}", size.x() * scale, size.y() * scale, size.z() * scale, unit);
 }
 
 std::vector<Standpoint> FindStandpoints(const Scene& scene) {
@@ -57,26 +46,26 @@ std::string FormatCameraTable(const Scene& scene) {
   for (const Photograph& photograph : scene.photographs) {
     width = std::max(width, DisplayWidth(photograph.name));
   }
-  std::string table = Printed("\n%s  %9s %9s %8s  %-8s %9s  %6s  %s\n",
-                              PaddedTo(width, "photograph").c_str(),
-                              "x",
-                              "y",
-                              ("z, " + unit).c_str(),
-                              "stands",
-                              "distance",
-                              "angle",
-                              "looks at");
+  std::string table = fmt::format("\n{}  {:>9} {:>9} {:>8}  {:<8} {:>9}  {:>6}  {}\n",
+                                  PaddedTo(width, "photograph"),
+                                  "x",
+                                  "y",
+                                  "z, " + unit,
+                                  "stands",
+                                  "distance",
+                                  "angle",
+                                  "looks at");
   for (size_t i = 0; i < standpoints.size(); ++i) {
     const Standpoint& standpoint = standpoints[i];
-    table += Printed("%s  %9.1f %9.1f %8.1f  %-8s %9.4g  %6.1f  %s\n",
-                     PaddedTo(width, scene.photographs[i].name).c_str(),
-                     standpoint.position_in_site.x(),
-                     standpoint.position_in_site.y(),
-                     standpoint.position_in_site.z(),
-                     standpoint.bearing.c_str(),
-                     standpoint.distance,
-                     scene.photographs[i].tag.view_angle_deg,
-                     LooksAt(scene.model, standpoint).c_str());
+    table += fmt::format("{}  {:9.1f} {:9.1f} {:8.1f}  {:<8} {:9.4g}  {:6.1f}  {}\n",
+                         PaddedTo(width, scene.photographs[i].name),
+                         standpoint.position_in_site.x(),
+                         standpoint.position_in_site.y(),
+                         standpoint.position_in_site.z(),
+                         standpoint.bearing,
+                         standpoint.distance,
+                         scene.photographs[i].tag.view_angle_deg,
+                         LooksAt(scene.model, standpoint));
   }
   return table;
 }

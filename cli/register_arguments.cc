@@ -103,10 +103,12 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
 
 void AddKeepOption(CLI::App* command, RegisterArguments& arguments) {
   command
-      ->add_option("--keep",
-                   arguments.options.keep_folder,
-                   "also write there what the stages of registration hand to one another: samples, "
-                   "solutions, matches, a picture for each photograph")
+      ->add_option(
+          "--keep",
+          arguments.options.keep_folder,
+          "also write there what the stages of registration hand to one another: samples, "
+          "solutions, matches, a picture for each photograph; what refining them together takes "
+          "and gives")
       ->type_name("DIR");
 }
 

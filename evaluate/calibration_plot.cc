@@ -5,6 +5,7 @@
 #include "evaluate/svg.h"
 #include "scene/error.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -23,58 +24,56 @@ double X(double share) { return kLeft + kPlotSide * share; }
 double Y(double share) { return kPlotTop + kPlotSide * (1 - share); }
 
 void DrawAxes(std::string& svg) {
-  AppendSvg(svg,
-            "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" "
-            "stroke=\"#444\"/>\n",
-            kLeft,
-            kPlotTop,
-            kPlotSide,
-            kPlotSide);
+  svg += fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
+      "stroke=\"#444\"/>\n",
+      kLeft,
+      kPlotTop,
+      kPlotSide,
+      kPlotSide);
   for (int percent = 0; percent <= 100; percent += 20) {
     const double share = percent / 100.0;
-    AppendSvg(svg,
-              "<path d=\"M%.1f %.1fV%.1fM%.1f %.1fH%.1f\" stroke=\"#ddd\" fill=\"none\"/>\n",
-              X(share),
-              kPlotTop,
-              kPlotTop + kPlotSide,
-              kLeft,
-              Y(share),
-              kLeft + kPlotSide);
-    AppendSvg(svg,
-              "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%d %%</text>\n",
-              X(share),
-              kPlotTop + kPlotSide + 16,
-              percent);
-    AppendSvg(svg,
-              "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%d %%</text>\n",
-              kLeft - 6,
-              Y(share) + 4,
-              percent);
+    svg += fmt::format(
+        "<path d=\"M{:.1f} {:.1f}V{:.1f}M{:.1f} {:.1f}H{:.1f}\" stroke=\"#ddd\" fill=\"none\"/>\n",
+        X(share),
+        kPlotTop,
+        kPlotTop + kPlotSide,
+        kLeft,
+        Y(share),
+        kLeft + kPlotSide);
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{} %</text>\n",
+                       X(share),
+                       kPlotTop + kPlotSide + 16,
+                       percent);
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{} %</text>\n",
+                       kLeft - 6,
+                       Y(share) + 4,
+                       percent);
   }
-  AppendSvg(svg,
-            "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">confidence claimed</text>\n",
-            kLeft + kPlotSide / 2,
-            kPlotTop + kPlotSide + 36);
-  AppendSvg(svg,
-            "<text transform=\"translate(%.1f %.1f) rotate(-90)\" text-anchor=\"middle\">truths "
-            "inside</text>\n",
-            kLeft - 46,
-            kPlotTop + kPlotSide / 2);
-  AppendSvg(svg,
-            "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#888\" stroke-dasharray=\"5 4\"/>\n",
-            X(0),
-            Y(0),
-            X(1),
-            Y(1));
+  svg += fmt::format(
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">confidence claimed</text>\n",
+      kLeft + kPlotSide / 2,
+      kPlotTop + kPlotSide + 36);
+  svg += fmt::format(
+      "<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\">truths "
+      "inside</text>\n",
+      kLeft - 46,
+      kPlotTop + kPlotSide / 2);
+  svg += fmt::format(
+      "<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#888\" stroke-dasharray=\"5 4\"/>\n",
+      X(0),
+      Y(0),
+      X(1),
+      Y(1));
   // What is asked of the 95 % ellipsoid.
-  AppendSvg(svg,
-            "<path d=\"M%.1f %.1fV%.1fm-4 0h8M%.1f %.1fh8\" stroke=\"#222\" fill=\"none\" "
-            "stroke-width=\"2\"/>\n",
-            X(0.95),
-            Y(0.90),
-            Y(0.98),
-            X(0.95) - 4,
-            Y(0.90));
+  svg += fmt::format(
+      "<path d=\"M{:.1f} {:.1f}V{:.1f}m-4 0h8M{:.1f} {:.1f}h8\" stroke=\"#222\" fill=\"none\" "
+      "stroke-width=\"2\"/>\n",
+      X(0.95),
+      Y(0.90),
+      Y(0.98),
+      X(0.95) - 4,
+      Y(0.90));
 }
 
 // Steps: the share grows by one truth at each truth's own confidence.
@@ -82,14 +81,13 @@ void DrawCurve(const CalibrationCurve& curve, const char* color, std::string& sv
   std::vector<double> levels = curve.confidences;
   std::sort(levels.begin(), levels.end());
   std::string path;
-  AppendSvg(path, "M%.1f %.1f", X(0), Y(0));
+  path += fmt::format("M{:.1f} {:.1f}", X(0), Y(0));
   for (size_t i = 0; i < levels.size(); ++i) {
-    AppendSvg(path,
-              "H%.1fV%.1f",
-              X(levels[i]),
-              Y(static_cast<double>(i + 1) / static_cast<double>(levels.size())));
+    path += fmt::format("H{:.1f}V{:.1f}",
+                        X(levels[i]),
+                        Y(static_cast<double>(i + 1) / static_cast<double>(levels.size())));
   }
-  AppendSvg(path, "H%.1f", X(1));
+  path += fmt::format("H{:.1f}", X(1));
   svg += "<path d=\"" + path + "\" fill=\"none\" stroke-width=\"2\" stroke=\"" + color +
          "\"><title>" + EscapedForSvg(curve.name) + "</title></path>\n";
 }
@@ -138,15 +136,14 @@ std::string FormatCalibrationPlot(const std::vector<CalibrationCurve>& curves) {
     const char* color = kColors[i % std::size(kColors)];
     DrawCurve(curves[i], color, svg);
     const double y = legend_top + 18 * static_cast<double>(i);
-    AppendSvg(
-        svg, "<path d=\"M%.1f %.1fh20\" stroke=\"%s\" stroke-width=\"2\"/>", kLeft, y - 4, color);
-    AppendSvg(svg,
-              "<text x=\"%.1f\" y=\"%.1f\">%s: %.0f %% of %zu inside 95 %%</text>\n",
-              kLeft + 28,
-              y,
-              EscapedForSvg(curves[i].name).c_str(),
-              100 * curves[i].ShareInside(0.95),
-              curves[i].confidences.size());
+    svg += fmt::format(
+        "<path d=\"M{:.1f} {:.1f}h20\" stroke=\"{}\" stroke-width=\"2\"/>", kLeft, y - 4, color);
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}: {:.0f} % of {} inside 95 %</text>\n",
+                       kLeft + 28,
+                       y,
+                       EscapedForSvg(curves[i].name),
+                       100 * curves[i].ShareInside(0.95),
+                       curves[i].confidences.size());
   }
   return svg + "</svg>\n";
 }

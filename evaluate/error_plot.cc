@@ -4,6 +4,8 @@
 
 #include "evaluate/svg.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,47 +45,43 @@ void DrawAxes(const Panel& panel,
               const std::string& x_label,
               const std::string& y_label,
               std::string& svg) {
-  AppendSvg(svg,
-            "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" "
-            "stroke=\"#444\"/>\n",
-            panel.left,
-            kPanelTop,
-            kPanelSide,
-            kPanelSide);
+  svg += fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
+      "stroke=\"#444\"/>\n",
+      panel.left,
+      kPanelTop,
+      kPanelSide,
+      kPanelSide);
   for (int decade = panel.low_decade; decade <= panel.high_decade; ++decade) {
     const double value = std::pow(10.0, decade);
     const double x = panel.X(value);
     const double y = panel.Y(value);
-    AppendSvg(svg,
-              "<path d=\"M%.1f %.1fV%.1fM%.1f %.1fH%.1f\" stroke=\"#ddd\" fill=\"none\"/>\n",
-              x,
-              kPanelTop,
-              kPanelTop + kPanelSide,
-              panel.left,
-              y,
-              panel.left + kPanelSide);
-    AppendSvg(svg,
-              "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%g</text>\n",
-              x,
-              kPanelTop + kPanelSide + 16,
-              value);
-    AppendSvg(svg,
-              "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%g</text>\n",
-              panel.left - 6,
-              y + 4,
-              value);
+    svg += fmt::format(
+        "<path d=\"M{:.1f} {:.1f}V{:.1f}M{:.1f} {:.1f}H{:.1f}\" stroke=\"#ddd\" fill=\"none\"/>\n",
+        x,
+        kPanelTop,
+        kPanelTop + kPanelSide,
+        panel.left,
+        y,
+        panel.left + kPanelSide);
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:g}</text>\n",
+                       x,
+                       kPanelTop + kPanelSide + 16,
+                       value);
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:g}</text>\n",
+                       panel.left - 6,
+                       y + 4,
+                       value);
   }
-  AppendSvg(svg,
-            "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n",
-            panel.left + kPanelSide / 2,
-            kPanelTop + kPanelSide + 36,
-            EscapedForSvg(x_label).c_str());
-  AppendSvg(
-      svg,
-      "<text transform=\"translate(%.1f %.1f) rotate(-90)\" text-anchor=\"middle\">%s</text>\n",
+  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
+                     panel.left + kPanelSide / 2,
+                     kPanelTop + kPanelSide + 36,
+                     EscapedForSvg(x_label));
+  svg += fmt::format(
+      "<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
       panel.left - 44,
       kPanelTop + kPanelSide / 2,
-      EscapedForSvg(y_label).c_str());
+      EscapedForSvg(y_label));
 }
 
 // The line y = factor * x within the panel.
@@ -98,20 +96,19 @@ void DrawProportion(const Panel& panel,
   const double x0 = std::max(low, low / factor);
   const double x1 = std::min(high, high / factor);
   if (x0 >= x1) return;
-  AppendSvg(svg,
-            "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"%s\" stroke-dasharray=\"5 4\"/>\n",
-            panel.X(x0),
-            panel.Y(x0 * factor),
-            panel.X(x1),
-            panel.Y(x1 * factor),
-            color);
+  svg += fmt::format(
+      "<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\" stroke-dasharray=\"5 4\"/>\n",
+      panel.X(x0),
+      panel.Y(x0 * factor),
+      panel.X(x1),
+      panel.Y(x1 * factor),
+      color);
   // Beside the line, this share of its way up.
-  AppendSvg(svg,
-            "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\" fill=\"%s\">%s</text>\n",
-            std::lerp(panel.X(x0), panel.X(x1), label_at) - 8,
-            std::lerp(panel.Y(x0 * factor), panel.Y(x1 * factor), label_at),
-            color,
-            label);
+  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\" fill=\"{}\">{}</text>\n",
+                     std::lerp(panel.X(x0), panel.X(x1), label_at) - 8,
+                     std::lerp(panel.Y(x0 * factor), panel.Y(x1 * factor), label_at),
+                     color,
+                     label);
 }
 
 const char* ColorOf(const std::optional<Verdict>& verdict) {
@@ -122,18 +119,17 @@ const char* ColorOf(const std::optional<Verdict>& verdict) {
 
 void DrawPoint(
     const Panel& panel, double x, double y, const ErrorPlotPoint& point, std::string& svg) {
-  AppendSvg(svg,
-            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\" fill-opacity=\"0.7\">",
-            panel.X(x),
-            panel.Y(y),
-            ColorOf(point.verdict));
-  AppendSvg(svg,
-            "<title>%s: %.3g, %.3g%s%s</title></circle>\n",
-            EscapedForSvg(point.name).c_str(),
-            x,
-            y,
-            point.verdict ? ", " : "",
-            point.verdict ? std::string(VerdictName(*point.verdict)).c_str() : "");
+  svg +=
+      fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\" fill-opacity=\"0.7\">",
+                  panel.X(x),
+                  panel.Y(y),
+                  ColorOf(point.verdict));
+  svg += fmt::format("<title>{}: {:.3g}, {:.3g}{}{}</title></circle>\n",
+                     EscapedForSvg(point.name),
+                     x,
+                     y,
+                     point.verdict ? ", " : "",
+                     point.verdict ? VerdictName(*point.verdict) : "");
 }
 
 }  // namespace
@@ -215,15 +211,15 @@ std::string FormatErrorPlot(const std::vector<ErrorPlotPoint>& points,
           return point.verdict == v;
         });
     if (!is_there) continue;
-    AppendSvg(svg,
-              "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/>"
-              "<text x=\"%.1f\" y=\"%.1f\">%s</text>\n",
-              x,
-              height - 14,
-              ColorOf(verdict),
-              x + 8,
-              height - 10,
-              name);
+    svg += fmt::format(
+        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>"
+        "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+        x,
+        height - 14,
+        ColorOf(verdict),
+        x + 8,
+        height - 10,
+        name);
     x += 90;
   }
   return svg + "</svg>\n";

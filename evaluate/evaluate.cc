@@ -215,4 +215,13 @@ Evaluation Evaluate(const fs::path& found,
   return evaluation;
 }
 
+std::array<ParameterErrors, kNumCameraParameters> SummariseParameters(
+    const Evaluation& evaluation) {
+  std::vector<PhotographParameters> photographs;
+  for (const PhotographEvaluation& photograph : evaluation.photographs) {
+    if (photograph.parameters) photographs.push_back(*photograph.parameters);
+  }
+  return SummariseParameters(photographs);
+}
+
 }  // namespace groundglass

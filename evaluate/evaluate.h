@@ -78,6 +78,9 @@ Evaluation Evaluate(const std::filesystem::path& found,
 // its pages' provenance, or by faces having texture where pages have none: 1 channel.
 Image8 CoveredPixels(const TexturedModel& model, const Camera& camera);
 
+// The errors of each number, over all photographs whose claims are known.
+std::array<ParameterErrors, kNumCameraParameters> SummariseParameters(const Evaluation& evaluation);
+
 // For people, and for programs.
 std::string FormatEvaluationTable(const Evaluation& evaluation, const PolygonModel& model);
 std::string FormatEvaluationJson(const Evaluation& evaluation, const PolygonModel& model);

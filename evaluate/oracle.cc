@@ -225,8 +225,7 @@ std::vector<OraclePicture> RenderOracle(const PolygonModel& model,
         *picture.covered.At(x, y) = 255;
         for (int c = 0; c < 3; ++c) {
           const float mean = view.sum.At(x, y)[c] / static_cast<float>(count);
-          picture.srgb8.At(x, y)[c] =
-              static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(std::clamp(mean, 0.0f, 1.0f))));
+          picture.srgb8.At(x, y)[c] = Srgb8FromLinear(mean);
         }
       }
     }

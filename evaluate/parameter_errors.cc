@@ -2,9 +2,10 @@
 // Part of Groundglass.
 #include "evaluate/parameter_errors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace groundglass {
 namespace {
@@ -77,49 +78,35 @@ std::array<ParameterErrors, kNumCameraParameters> SummariseParameters(
 std::string FormatParameterTable(
     const std::array<ParameterErrors, kNumCameraParameters>& parameters, const std::string& unit) {
   if (parameters[0].count == 0) return {};
-  char line[256];
-  std::snprintf(line,
-                sizeof line,
-                "%-12s %11s %11s %11s %13s %6s %11s  %s\n",
-                "number, RMS",
-                "tag's error",
-                "found's",
-                "claimed",
-                "error/claimed",
-                "worst",
-                "of prior",
-                "hardest to tell from");
-  std::string text = line;
+  std::string text = fmt::format("{:<12} {:>11} {:>11} {:>11} {:>13} {:>6} {:>11}  {}\n",
+                                 "number, RMS",
+                                 "tag's error",
+                                 "found's",
+                                 "claimed",
+                                 "error/claimed",
+                                 "worst",
+                                 "of prior",
+                                 "hardest to tell from");
   for (int i = 0; i < kNumCameraParameters; ++i) {
     const ParameterErrors& errors = parameters[i];
     const std::string name(kCameraParameterNames[i]);
     const std::string unit_name = UnitOf(i, unit);
-    std::snprintf(line,
-                  sizeof line,
-                  "%-12s %11.4f %11.4f ",
-                  (unit_name.empty() ? name : name + " " + unit_name).c_str(),
-                  errors.rms_tag,
-                  errors.rms_found);
-    text += line;
+    text += fmt::format("{:<12} {:11.4f} {:11.4f} ",
+                        unit_name.empty() ? name : name + " " + unit_name,
+                        errors.rms_tag,
+                        errors.rms_found);
     if (errors.rms_sigma == 0) {
       text += "      held\n";
       continue;
     }
-    std::snprintf(line,
-                  sizeof line,
-                  "%11.4f %13.2f %6.2f %9.0f %%",
-                  errors.rms_sigma,
-                  errors.rms_in_sigmas,
-                  errors.worst_in_sigmas,
-                  100 * errors.sigma_over_prior);
-    text += line;
+    text += fmt::format("{:11.4f} {:13.2f} {:6.2f} {:9.0f} %",
+                        errors.rms_sigma,
+                        errors.rms_in_sigmas,
+                        errors.worst_in_sigmas,
+                        100 * errors.sigma_over_prior);
     if (errors.partner >= 0) {
-      std::snprintf(line,
-                    sizeof line,
-                    "  %s (%.2f)",
-                    std::string(kCameraParameterNames[errors.partner]).c_str(),
-                    errors.partner_correlation);
-      text += line;
+      text += fmt::format(
+          "  {} ({:.2f})", kCameraParameterNames[errors.partner], errors.partner_correlation);
     }
     text += "\n";
   }

@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #include "evaluate/scene_summary.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 namespace groundglass {
@@ -30,10 +30,7 @@ JudgedScene AllTogether(const std::vector<JudgedScene>& scenes) {
 }
 
 std::string TwoDecimals(const std::optional<double>& px) {
-  if (!px) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", *px);
-  return text;
+  return px ? fmt::format("{:.2f}", *px) : "-";
 }
 
 nlohmann::ordered_json NumberOrNull(const std::optional<double>& px) {
@@ -41,26 +38,22 @@ nlohmann::ordered_json NumberOrNull(const std::optional<double>& px) {
 }
 
 std::string FormatLine(const SceneSummary& summary, int name_width) {
-  char share[32] = "-";
-  if (summary.num_calibrated > 0) {
-    std::snprintf(share, sizeof share, "%d of %d", summary.num_inside_95, summary.num_calibrated);
-  }
-  char line[256];
-  std::snprintf(line,
-                sizeof line,
-                "%-*s %6d %9d %7d %9d %6d %9s %10s %9s %12s\n",
-                name_width,
-                summary.name.c_str(),
-                summary.count,
-                summary.num_accepted,
-                summary.num_review,
-                summary.num_rejected,
-                summary.num_wrong_accepted,
-                TwoDecimals(summary.median_start_px).c_str(),
-                TwoDecimals(summary.median_px).c_str(),
-                TwoDecimals(summary.worst_px).c_str(),
-                share);
-  return line;
+  const std::string share =
+      summary.num_calibrated > 0
+          ? fmt::format("{} of {}", summary.num_inside_95, summary.num_calibrated)
+          : "-";
+  return fmt::format("{:<{}} {:6} {:9} {:7} {:9} {:6} {:>9} {:>10} {:>9} {:>12}\n",
+                     summary.name,
+                     name_width,
+                     summary.count,
+                     summary.num_accepted,
+                     summary.num_review,
+                     summary.num_rejected,
+                     summary.num_wrong_accepted,
+                     TwoDecimals(summary.median_start_px),
+                     TwoDecimals(summary.median_px),
+                     TwoDecimals(summary.worst_px),
+                     share);
 }
 
 nlohmann::ordered_json JsonFromSceneSummary(const SceneSummary& summary) {
@@ -146,22 +139,18 @@ std::string FormatScenesTable(const std::vector<JudgedScene>& scenes) {
   for (const JudgedScene& scene : scenes) {
     name_width = std::clamp(static_cast<int>(scene.name.size()), name_width, 60);
   }
-  char head[256];
-  std::snprintf(head,
-                sizeof head,
-                "%-*s %6s %9s %7s %9s %6s %9s %10s %9s %12s\n",
-                name_width,
-                "scene",
-                "tags",
-                "accepted",
-                "review",
-                "rejected",
-                "wrong",
-                "start px",
-                "median px",
-                "worst px",
-                "in 95 %");
-  std::string text = head;
+  std::string text = fmt::format("{:<{}} {:>6} {:>9} {:>7} {:>9} {:>6} {:>9} {:>10} {:>9} {:>12}\n",
+                                 "scene",
+                                 name_width,
+                                 "tags",
+                                 "accepted",
+                                 "review",
+                                 "rejected",
+                                 "wrong",
+                                 "start px",
+                                 "median px",
+                                 "worst px",
+                                 "in 95 %");
   for (const JudgedScene& scene : scenes) text += FormatLine(SummariseScene(scene), name_width);
   text += FormatLine(SummariseScene(AllTogether(scenes)), name_width);
   return text +

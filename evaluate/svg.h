@@ -2,20 +2,13 @@
 // Part of Groundglass.
 #pragma once
 
-#include <cstdio>
 #include <string>
 
 namespace groundglass {
 
-// For plots that are written as text.
-
-// Appends what printf would print; cut after 599 characters.
-template <typename... Values>
-void AppendSvg(std::string& svg, const char* format, Values... values) {
-  char buffer[600];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  svg += buffer;
-}
+// For plots that are written as text. Debian 12 has no C++ library that draws plots into SVG
+// (matplot++ came later, and is a front of the program gnuplot), and gnuplot would be a program to
+// install for two pictures of known form, without the titles that name each point.
 
 // Text that XML takes for markup, escaped.
 std::string EscapedForSvg(const std::string& text);

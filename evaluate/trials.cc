@@ -9,9 +9,9 @@
 #include "scene/error.h"
 #include "scene/quantile.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <utility>
@@ -82,6 +82,25 @@ constexpr Blunder kBlunderKinds[] = {
     Blunder::kSwappedCoordinates, Blunder::kWrongSign, Blunder::kWrongPhotograph, Blunder::kNone};
 
 double ShareInPercent(int part, int whole) { return whole > 0 ? 100.0 * part / whole : 0; }
+
+// "from LOW to HIGH" of a row of the table.
+std::string RangeOf(const TrialBin& bin) {
+  if (bin.high_px <= 1e6) return fmt::format("{:g} to {:g}", bin.low_px, bin.high_px);
+  return bin.low_px == 0 ? "all" : fmt::format("{:g} and up", bin.low_px);
+}
+
+std::string FormatBlunderRow(const TrialBin& bin, Blunder kind) {
+  const std::string name =
+      kind == Blunder::kNone ? "all blunders" : fmt::format("blunders, {}", BlunderName(kind));
+  return fmt::format(
+      "{:<28} {:6}  put right (to 3 px) {:5.1f} %  accepted {:5.1f} %  wrong {} ({:.1f} %)\n",
+      name,
+      bin.count,
+      ShareInPercent(bin.num_within_3_px, bin.count),
+      ShareInPercent(bin.num_accepted, bin.count),
+      bin.num_wrong_accepted,
+      ShareInPercent(bin.num_wrong_accepted, bin.count));
+}
 
 }  // namespace
 
@@ -195,64 +214,35 @@ TrialBin SummariseBlunders(const std::vector<Trial>& trials, Blunder kind) {
 }
 
 std::string FormatTrialsTable(const std::vector<Trial>& trials, const TrialOptions& options) {
-  char line[256];
-  std::snprintf(line,
-                sizeof line,
-                "%d notebooks, sigmas %g across, %g up, look-at %g; pixels at 640 wide\n",
-                options.num_trials,
-                options.sigma_position,
-                options.sigma_height,
-                options.sigma_lookat);
-  std::string text = line;
-  std::snprintf(line,
-                sizeof line,
-                "%-12s %6s %9s %9s %11s %9s %6s %11s\n",
-                "start px",
-                "tags",
-                "to 1 px",
-                "to 3 px",
-                "median px",
-                "accepted",
-                "wrong",
-                "in 95 %");
-  text += line;
+  std::string text =
+      fmt::format("{} notebooks, sigmas {:g} across, {:g} up, look-at {:g}; pixels at 640 wide\n",
+                  options.num_trials,
+                  options.sigma_position,
+                  options.sigma_height,
+                  options.sigma_lookat);
+  text += fmt::format("{:<12} {:>6} {:>9} {:>9} {:>11} {:>9} {:>6} {:>11}\n",
+                      "start px",
+                      "tags",
+                      "to 1 px",
+                      "to 3 px",
+                      "median px",
+                      "accepted",
+                      "wrong",
+                      "in 95 %");
   for (const TrialBin& bin : SummariseTrials(trials)) {
-    char range[32];
-    if (bin.low_px == 0 && bin.high_px > 1e6) {
-      std::snprintf(range, sizeof range, "all");
-    } else if (bin.high_px > 1e6) {
-      std::snprintf(range, sizeof range, "%g and up", bin.low_px);
-    } else {
-      std::snprintf(range, sizeof range, "%g to %g", bin.low_px, bin.high_px);
-    }
-    std::snprintf(line,
-                  sizeof line,
-                  "%-12s %6d %7.1f %% %7.1f %% %11.2f %7.1f %% %6d %9.1f %%\n",
-                  range,
-                  bin.count,
-                  ShareInPercent(bin.num_within_1_px, bin.count),
-                  ShareInPercent(bin.num_within_3_px, bin.count),
-                  bin.median_end_px,
-                  ShareInPercent(bin.num_accepted, bin.count),
-                  bin.num_wrong_accepted,
-                  ShareInPercent(bin.num_inside_95, bin.num_calibrated));
-    text += line;
+    text += fmt::format("{:<12} {:6} {:7.1f} % {:7.1f} % {:11.2f} {:7.1f} % {:6} {:9.1f} %\n",
+                        RangeOf(bin),
+                        bin.count,
+                        ShareInPercent(bin.num_within_1_px, bin.count),
+                        ShareInPercent(bin.num_within_3_px, bin.count),
+                        bin.median_end_px,
+                        ShareInPercent(bin.num_accepted, bin.count),
+                        bin.num_wrong_accepted,
+                        ShareInPercent(bin.num_inside_95, bin.num_calibrated));
   }
   if (options.num_blunders == 0) return text;
   for (const Blunder kind : kBlunderKinds) {
-    const TrialBin bin = SummariseBlunders(trials, kind);
-    std::snprintf(
-        line,
-        sizeof line,
-        "%-28s %6d  put right (to 3 px) %5.1f %%  accepted %5.1f %%  wrong %d (%.1f %%)\n",
-        kind == Blunder::kNone ? "all blunders"
-                               : ("blunders, " + std::string(BlunderName(kind))).c_str(),
-        bin.count,
-        ShareInPercent(bin.num_within_3_px, bin.count),
-        ShareInPercent(bin.num_accepted, bin.count),
-        bin.num_wrong_accepted,
-        ShareInPercent(bin.num_wrong_accepted, bin.count));
-    text += line;
+    text += FormatBlunderRow(SummariseBlunders(trials, kind), kind);
   }
   return text;
 }

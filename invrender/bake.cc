@@ -15,6 +15,7 @@
 #include "invrender/plan/memory_plan.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
+#include "scene/progress.h"
 #include "scene/text.h"
 
 #include <tbb/parallel_for.h>
@@ -23,30 +24,12 @@
 #include <atomic>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 namespace groundglass {
 namespace {
-
-// Counts steps for a Progress, from any thread.
-class Steps {
- public:
-  Steps(const Progress& progress, int total) : progress_(progress), total_(total) {}
-  void Tell(const std::string& what) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ++done_;
-    if (progress_) progress_(done_, total_, what);
-  }
-
- private:
-  const Progress& progress_;
-  int total_;
-  int done_ = 0;
-  std::mutex mutex_;
-};
 
 // No more than so many at the same time; there is work for all cores in each of them.
 void ForEach(int count, int num_at_once, const std::function<void(int)>& work) {
@@ -208,7 +191,7 @@ class Bake {
  private:
   bool IsLimited() const { return options_.memory.max_memory_mb > 0; }
 
-  std::vector<PreparedPhoto> Prepare(const MaskDetail& detail, Steps* steps) {
+  std::vector<PreparedPhoto> Prepare(const MaskDetail& detail, ProgressCounter* steps) {
     const PhotoContext context = {model_,
                                   visibility_,
                                   earlier_ ? &*earlier_ : nullptr,
@@ -289,7 +272,7 @@ class Bake {
   std::vector<Chart> charts_;
   std::vector<int> chart_of_face_;
   PhotoCache cache_;
-  Steps steps_;
+  ProgressCounter steps_;
   MemoryPlan plan_;
   std::vector<PreparedPhoto> photos_;
   std::vector<PageSize> page_sizes_;

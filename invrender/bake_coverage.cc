@@ -2,9 +2,9 @@
 // Part of Groundglass.
 #include "invrender/bake_coverage.h"
 
-#include "invrender/measure/median.h"
 #include "invrender/plan/suggest_viewpoint.h"
 #include "scene/face_number.h"
+#include "scene/quantile.h"
 #include "scene/textured_model.h"
 
 #include <algorithm>
@@ -82,7 +82,7 @@ void AddSources(const std::vector<BakePhotograph>& photographs,
     FaceCoverage::Source& entry = coverage.faces[source.face].sources.emplace_back();
     entry.photograph = photographs[source.photo].name;
     entry.num_texels = source.num_texels;
-    if (!source.footprints.empty()) entry.footprint = Median(source.footprints);
+    if (!source.footprints.empty()) entry.footprint = UpperMedian(source.footprints);
   }
 }
 

@@ -161,14 +161,20 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
                                                    options.solutions,
                                                    options.readings);
   if (readings.empty()) {
-    alignment.keep_fault = KeepIfAsked({photograph, edge_model, written, evidence, {}}, options);
+    alignment.keep_fault = KeepIfAsked(
+        {photograph.name, photograph.grey8, edge_model, written, evidence, {}}, options);
     registration.reasons.push_back("the measured tag sees almost nothing of the model");
     registration.covariance = written.root * written.root.transpose();
     return alignment;
   }
   const TagReading& reading = readings.front();
-  alignment.keep_fault =
-      KeepIfAsked({photograph, edge_model, reading.prior, evidence, reading.solutions}, options);
+  alignment.keep_fault = KeepIfAsked({photograph.name,
+                                      photograph.grey8,
+                                      edge_model,
+                                      reading.prior,
+                                      evidence,
+                                      reading.solutions},
+                                     options);
   const Solution& best = reading.solutions.front();
   const Refinement& refined = best.refinement;
   const Rival rival = FindRival(readings, options.solutions);

@@ -211,10 +211,10 @@ void KeepStages(const AlignmentStages& stages,
   const cv::Scalar found_colour(0, 150, 220);
   const cv::Scalar candidate_colour(230, 200, 0);
   const cv::Scalar taken_colour(0, 130, 0);
-  const std::filesystem::path own = folder / stages.photograph.name;
+  const std::filesystem::path own = folder / stages.name;
   const CameraPrior& prior = stages.prior;
-  const double to_photograph = static_cast<double>(stages.photograph.grey8.width) / prior.width_px;
-  DotPicture picture(stages.photograph.grey8, to_photograph);
+  const double to_photograph = static_cast<double>(stages.grey8.width) / prior.width_px;
+  DotPicture picture(stages.grey8, to_photograph);
   const auto keep_samples = [&](const char* name,
                                 const std::vector<EdgeSample>& samples,
                                 const CameraParameters& whitened,

@@ -2,19 +2,21 @@
 // Part of Groundglass.
 #pragma once
 
-#include "register/align_photograph.h"
 #include "register/camera/camera_prior.h"
 #include "register/edges/edge_evidence.h"
 #include "register/refine/find_solutions.h"
+#include "scene/image.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace groundglass {
 
 // What the stages of one photograph's registration have handed to one another.
 struct AlignmentStages {
-  const PhotographInput& photograph;
+  const std::string& name;  // of the photograph
+  const Image8& grey8;      // the photograph itself
   const EdgeModel& edge_model;
   const CameraPrior& prior;
   const EdgeEvidence& evidence;

@@ -3,6 +3,7 @@
 #include "register/refine_set.h"
 
 #include "register/fill_registration.h"
+#include "register/keep_joint.h"
 #include "scene/error.h"
 
 #include <tbb/parallel_for.h>
@@ -58,6 +59,26 @@ std::vector<TieView> ViewsOf(const std::vector<AlignedPhotograph>& photographs) 
   return views;
 }
 
+// Why what joint refinement took and gave could not be kept; empty if it was, or nobody asked.
+std::string KeepJointIfAsked(const PhotographSet& set,
+                             const std::vector<int>& lenses,
+                             const TiePoints& ties,
+                             const JointRefinement& joint,
+                             const RegisterOptions& options) {
+  if (options.keep_folder.empty()) return "";
+  JointStage stage{{}, {}, set.photographs, lenses, ties.points, joint};
+  for (const PhotographAlignment* alignment : set.alignments) {
+    stage.names.push_back(alignment->registration.name);
+    stage.widths_px.push_back(alignment->registration.width_px);
+  }
+  try {
+    KeepJointStage(stage, options.keep_folder);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
 // The common solution of a set; its photographs' cameras are those found, afterwards.
 JointRefinement Refine(const EdgeModel& edge_model,
                        const RegisterOptions& options,
@@ -87,6 +108,8 @@ JointRefinement Refine(const EdgeModel& edge_model,
       throw Error("register: the photographs' common solution has no covariance");
     }
   }
+  std::string& keep_fault = set.alignments.front()->keep_fault;
+  if (keep_fault.empty()) keep_fault = KeepJointIfAsked(set, lenses, ties, joint, options);
   for (size_t i = 0; i < set.photographs.size(); ++i) {
     set.photographs[i].whitened = joint.photographs[i].whitened;
   }

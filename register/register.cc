@@ -123,9 +123,6 @@ RegisteredScene RegisterScene(const Scene& scene,
     options.prior.overclaim = *overclaim;
     alignments = AlignAll(scene, lens, edge_model, options, progress);
   }
-  for (const PhotographAlignment& alignment : alignments) {
-    if (!alignment.keep_fault.empty()) registered.warnings.push_back(alignment.keep_fault);
-  }
   if (!options.independent) {
     try {
       registered.model_errors = FindModelErrors(
@@ -139,6 +136,7 @@ RegisteredScene RegisterScene(const Scene& scene,
   }
   for (PhotographAlignment& alignment : alignments) {
     FinishVerdict(options, alignment);
+    if (!alignment.keep_fault.empty()) registered.warnings.push_back(alignment.keep_fault);
     registered.registrations.push_back(std::move(alignment.registration));
   }
   for (const UnreadablePhotograph& unreadable : scene.unreadable) {

@@ -55,7 +55,7 @@ struct RegisterOptions {
   // How often they are compared anew, through the cameras found so far.
   int num_tie_rounds = 2;
   // Where what each photograph's stages hand to one another is written, to be looked at
-  // (KeepStages); nowhere if empty.
+  // (KeepStages, KeepJointStage); nowhere if empty.
   std::filesystem::path keep_folder;
   // How the accepted photographs are refined together; another function is another method.
   std::function<JointRefinement(const EdgeModel&,

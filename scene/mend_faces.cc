@@ -3,14 +3,13 @@
 #include "scene/mend_faces.h"
 
 #include "scene/check_face.h"
+#include "scene/double_faces.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/face_outline.h"
 #include "scene/nested_faces.h"
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace groundglass {
@@ -160,58 +159,8 @@ class FaceMender {
                    Place(turned_[0]));
   }
 
-  // One number for all points at exactly the same place.
-  std::vector<int> WeldPoints() const {
-    std::vector<int> order(model_.points_in_world.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto key = [&](int point) {
-      return std::make_tuple(Point(point).x(), Point(point).y(), Point(point).z());
-    };
-    std::sort(order.begin(), order.end(), [&](int a, int b) {
-      return key(a) != key(b) ? key(a) < key(b) : a < b;
-    });
-    std::vector<int> weld(order.size());
-    for (size_t i = 0; i < order.size(); ++i) {
-      const bool is_same = i > 0 && key(order[i - 1]) == key(order[i]);
-      weld[order[i]] = is_same ? weld[order[i - 1]] : order[i];
-    }
-    return weld;
-  }
-
-  // The face's borders between welded points, whichever way they run, in order.
-  std::vector<std::pair<int, int>> SortedBorders(int face, const std::vector<int>& weld) const {
-    const std::vector<int>& points = model_.faces[face].points;
-    std::vector<std::pair<int, int>> borders;
-    for (const OutlineSide& side : FindBorders(model_, face)) {
-      borders.push_back(std::minmax(weld[points[side.start]], weld[points[side.end]]));
-    }
-    std::sort(borders.begin(), borders.end());
-    return borders;
-  }
-
   void DropDoubles() {
-    const std::vector<int> weld = WeldPoints();
-    std::vector<std::pair<uint64_t, int>> hashes;
-    for (const int face : mended_.usable) {
-      uint64_t hash = 1469598103934665603u;
-      for (const auto& [first, second] : SortedBorders(face, weld)) {
-        for (const int number : {first, second}) {
-          hash = (hash ^ static_cast<uint64_t>(number)) * 1099511628211u;
-        }
-      }
-      hashes.emplace_back(hash, face);
-    }
-    std::sort(hashes.begin(), hashes.end());
-    std::vector<int> first_of(model_.faces.size(), -1);  // of a double, the face that is kept
-    std::vector<int> alike;                              // faces with this hash that are no doubles
-    for (size_t i = 0; i < hashes.size(); ++i) {
-      const auto& [hash, face] = hashes[i];
-      if (i > 0 && hashes[i - 1].first != hash) alike.clear();
-      for (const int other : alike) {
-        if (SortedBorders(other, weld) == SortedBorders(face, weld)) first_of[face] = other;
-      }
-      if (first_of[face] < 0) alike.push_back(face);
-    }
+    const std::vector<int> first_of = FindDoubleFaces(model_, mended_.usable);
     int num_doubles = 0;
     int num_opposite = 0;
     int example = -1;

@@ -71,8 +71,7 @@ void UndoPremultiplication(Image8& rgba) {
     if (alpha == 0 || alpha == 255) continue;
     for (int channel = 0; channel < 3; ++channel) {
       const float linear = LinearFromSrgb(rgba.values[i + channel] / 255.0f) * 255.0f / alpha;
-      rgba.values[i + channel] =
-          static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(std::min(1.0f, linear))));
+      rgba.values[i + channel] = Srgb8FromLinear(linear);
     }
   }
 }

@@ -2,7 +2,8 @@
 // Part of Groundglass.
 #include "invrender/colour/colour.h"
 
-#include "invrender/measure/median.h"
+#include "invrender/colour/weighted_median.h"
+#include "scene/quantile.h"
 
 #include <tbb/parallel_for.h>
 
@@ -156,8 +157,7 @@ std::vector<double> WeighBlocks(const Pair& pair,
                                            vignetting[pair.first] * a->radius_squared +
                                            vignetting[pair.second] * b->radius_squared));
   }
-  std::vector<float> ordered = residuals;
-  const float middle = Median(ordered);
+  const float middle = UpperMedian(residuals);
   std::vector<double> weights;
   for (const float residual : residuals) {
     const double e = (residual - middle) / scale;
@@ -226,7 +226,7 @@ float MedianDifference(const Pair& pair,
                           photos[pair.first].vignetting[channel] * a->radius_squared +
                           photos[pair.second].vignetting[channel] * b->radius_squared);
   }
-  return Median(differences);
+  return UpperMedian(std::move(differences));
 }
 
 // One gain for each photograph. A chart gives one difference for each pair that shows it, however
@@ -309,8 +309,9 @@ void SolveFaceGains(const std::vector<ChartBlocks>& blocks,
       for (size_t k = 0; k < residuals.size(); ++k) {
         if (residuals[k].empty()) continue;
         const auto count = static_cast<double>(residuals[k].size());
-        shift[k][channel] =
-            LowerMedian(residuals[k]) * static_cast<float>(count / (count + options.few_blocks));
+        const size_t lower_middle = (residuals[k].size() - 1) / 2;
+        shift[k][channel] = ValueOfRank(std::move(residuals[k]), lower_middle) *
+                            static_cast<float>(count / (count + options.few_blocks));
       }
     }
     for (size_t k = 0; k < shift.size(); ++k) colour.face_gains[chart][k] += shift[k];

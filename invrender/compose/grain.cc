@@ -3,8 +3,8 @@
 #include "invrender/compose/grain.h"
 
 #include "invrender/measure/bounded_least_squares.h"
-#include "invrender/measure/median.h"
 #include "invrender/photos/srgb_codes.h"
+#include "scene/quantile.h"
 
 #include <opencv2/imgproc.hpp>
 #include <tbb/parallel_for.h>
@@ -160,11 +160,8 @@ std::vector<double> SolveVariances(const std::map<PhotoPair, std::vector<float>>
   std::vector<double> halves;
   for (const auto& [photos, unsorted] : differences) {
     if (static_cast<int>(unsorted.size()) < options.fewest_patches) continue;
-    std::vector<float> sorted = unsorted;
-    const auto rank =
-        static_cast<size_t>(options.calm_quantile * static_cast<double>(sorted.size()));
-    const float calm = ValueAtRank(sorted, rank);
-    const double weight = static_cast<double>(sorted.size());
+    const double weight = static_cast<double>(unsorted.size());
+    const float calm = ValueOfRank(unsorted, static_cast<size_t>(options.calm_quantile * weight));
     for (const int i : {photos.first, photos.second}) {
       right[i] += weight * calm;
       for (const int j : {photos.first, photos.second}) normal(i, j) += weight;
@@ -172,7 +169,7 @@ std::vector<double> SolveVariances(const std::map<PhotoPair, std::vector<float>>
     halves.push_back(calm / 2);
   }
   if (halves.empty()) return std::vector<double>(num_photos, 0);
-  right.array() += options.prior_patches * Median(halves);
+  right.array() += options.prior_patches * UpperMedian(std::move(halves));
   const Eigen::VectorXd variances = SolveBounded(normal, right, 0);
   return {variances.begin(), variances.end()};
 }
@@ -307,7 +304,7 @@ void SmoothGrain(const GrainInputs& inputs, const GrainOptions& options, ChartPi
     const int photo = inputs.blocks.photos[k];
     if (footprints[photo].empty()) continue;
     // Texels of several pixels have less grain.
-    const double texel_px = std::max(1.0, inputs.chart.texel_size / Median(footprints[photo]));
+    const double texel_px = std::max(1.0, inputs.chart.texel_size / UpperMedian(footprints[photo]));
     // A correction multiplies radiance; codes go with its root of about 2.4.
     const double log_gain =
         inputs.colour

@@ -3,7 +3,7 @@
 #include "invrender/measure/sharpness.h"
 
 #include "invrender/measure/bounded_least_squares.h"
-#include "invrender/measure/median.h"
+#include "scene/quantile.h"
 
 #include <tbb/parallel_for.h>
 
@@ -185,7 +185,7 @@ std::vector<Sharpness> MeasureSharpness(const std::vector<Patch>& patches,
     sharpness[i].blur_px2 = blur.segment<2>(static_cast<Eigen::Index>(2 * i));
     means.push_back(sharpness[i].blur_px2.mean());
   }
-  const double ordinary_px2 = std::max(options.ordinary_blur_px2, Median(means));
+  const double ordinary_px2 = std::max(options.ordinary_blur_px2, UpperMedian(std::move(means)));
   for (Sharpness& s : sharpness) s.factor = SharpnessFactor(s.blur_px2, ordinary_px2, options);
   return sharpness;
 }

@@ -3,8 +3,8 @@
 #include "invrender/measure/texel_size.h"
 
 #include "invrender/charts/spread_points.h"
-#include "invrender/measure/median.h"
 #include "invrender/measure/texel_blocks.h"
+#include "scene/quantile.h"
 
 #include <tbb/parallel_for.h>
 
@@ -42,8 +42,9 @@ void ChooseTexelSizes(const PolygonModel& model,
     if (best_resolutions.empty()) return;
     const size_t rank =
         static_cast<size_t>(options.kept_share * static_cast<double>(best_resolutions.size() - 1));
-    double size = options.texel_size > 0 ? options.texel_size
-                                         : options.texel_px / ValueAtRank(best_resolutions, rank);
+    double size = options.texel_size > 0
+                      ? options.texel_size
+                      : options.texel_px / ValueOfRank(std::move(best_resolutions), rank);
     size = std::max(size, std::max(chart.width, chart.height) / room);
     chart.SetTexelSize(size);
   });

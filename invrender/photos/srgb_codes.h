@@ -6,8 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace groundglass {
@@ -17,18 +17,24 @@ namespace groundglass {
 // The radiance of each code, by code.
 template <typename Code>
 const float* RadianceOfCodes() {
-  constexpr int kNumCodes = std::numeric_limits<Code>::max() + 1;
-  static const std::vector<float> table = [] {
-    std::vector<float> values(kNumCodes);
-    for (int i = 0; i < kNumCodes; ++i) {
-      values[i] = LinearFromSrgb(static_cast<float>(i) / (kNumCodes - 1));
-    }
-    return values;
-  }();
-  return table.data();
+  if constexpr (std::is_same_v<Code, uint8_t>) {
+    return LinearOfSrgb8().data();
+  } else {
+    static_assert(std::is_same_v<Code, uint16_t>);
+    constexpr int kNumCodes = 65536;
+    static const std::vector<float> table = [] {
+      std::vector<float> values(kNumCodes);
+      for (int i = 0; i < kNumCodes; ++i) {
+        values[i] = LinearFromSrgb(static_cast<float>(i) / (kNumCodes - 1));
+      }
+      return values;
+    }();
+    return table.data();
+  }
 }
 
-// Radiance to 8-bit sRGB, rounded.
+// Radiance to 8-bit sRGB, rounded to the nearest of so many steps of light first, which is quicker
+// than Srgb8FromLinear (scene/srgb.h).
 class Srgb8Encoder {
  public:
   Srgb8Encoder();

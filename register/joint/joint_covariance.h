@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "register/joint/joint_solution.h"
 #include "register/joint/joint_state.h"
 #include "register/joint/solve_together.h"
 

@@ -5,7 +5,8 @@
 #include "register/camera/split_prior.h"
 #include "register/edges/aligned_sample.h"
 #include "register/edges/edge_samples.h"
-#include "register/joint/joint_refinement.h"
+#include "register/joint/aligned_photograph.h"
+#include "register/joint/joint_options.h"
 #include "register/joint/shared_edge_cost.h"
 #include "register/joint/tie_point_cost.h"
 

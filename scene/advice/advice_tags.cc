@@ -2,6 +2,7 @@
 // Part of Groundglass.
 // Each tag by itself: where no camera can have stood, and the slip of the pen that explains it.
 #include "scene/advice/advice_parts.h"
+#include "scene/quantile.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -107,11 +108,10 @@ std::vector<MeantTag> FindSlipsOf(TagKey key,
 
 // Most of the other tags' numbers, if they are within `alike` times of each other; else 0. The
 // numbers: above 0.
-double FindCommon(std::vector<double> others, double alike, double most) {
+double FindCommon(const std::vector<double>& others, double alike, double most) {
   constexpr size_t kFewest = 4;
   if (others.size() < kFewest) return 0;
-  std::nth_element(others.begin(), others.begin() + others.size() / 2, others.end());
-  const double middle = others[others.size() / 2];
+  const double middle = UpperMedian(others);
   const auto num_alike = std::count_if(others.begin(), others.end(), [&](double other) {
     return other <= alike * middle && other * alike >= middle;
   });

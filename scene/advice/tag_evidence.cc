@@ -6,6 +6,7 @@
 #include "scene/advice/edge_fit.h"
 #include "scene/advice/picture_fit.h"
 #include "scene/error.h"
+#include "scene/quantile.h"
 
 #include <tbb/parallel_for.h>
 
@@ -43,8 +44,7 @@ double ExpectedScore(const std::vector<PictureFit>& fits, size_t index) {
     if (i != index && fits[i].nearby > 0) others.push_back(fits[i].nearby);
   }
   if (others.size() < kFewestOthers) return 0;
-  std::nth_element(others.begin(), others.begin() + others.size() / 2, others.end());
-  const double median = others[others.size() / 2];
+  const double median = UpperMedian(std::move(others));
   return median < kTellingScore ? 0 : median;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "scene/error.h"
-#include "scene/face_number.h"
 #include "scene/face_outline.h"
 #include "scene/formats/atomic_file.h"
+#include "scene/formats/gltf_notes.h"
 #include "scene/formats/own_tiny_gltf.h"
 #include "scene/formats/textured_model_io.h"
 
@@ -22,6 +22,16 @@ Eigen::Vector3d GltfFromWorld(const Eigen::Vector3d& point) {
 // millimetre; the whole model is then moved by its node.
 constexpr double kFarFromOrigin_m = 1000;
 
+// The format requires the bounds of positions.
+void SetPositionBounds(const std::vector<float>& positions, tinygltf::Accessor& accessor) {
+  Eigen::Map<const Eigen::Matrix<float, 3, Eigen::Dynamic>> points(
+      positions.data(), 3, static_cast<Eigen::Index>(positions.size() / 3));
+  const Eigen::Vector3f low = points.rowwise().minCoeff();
+  const Eigen::Vector3f high = points.rowwise().maxCoeff();
+  accessor.minValues = {low.x(), low.y(), low.z()};
+  accessor.maxValues = {high.x(), high.y(), high.z()};
+}
+
 class GlbWriter {
  public:
   GlbWriter(const TexturedModel& textured, const JpegPages& pages)
@@ -30,7 +40,7 @@ class GlbWriter {
   std::string Write() {
     gltf_.asset.version = "2.0";
     gltf_.asset.generator = "groundglass";
-    AddNotes();
+    WriteGltfNotes(textured_.model, gltf_);
     gltf_.buffers.emplace_back();
     const Box bounds = ComputeBounds(textured_.model);
     const double scale = MetresPerUnit(textured_.model.unit);
@@ -67,23 +77,6 @@ class GlbWriter {
   }
 
  private:
-  // What glTF has no place for, so that our reader gives the same model back.
-  void AddNotes() {
-    tinygltf::Value::Object notes;
-    const PolygonModel& model = textured_.model;
-    notes["groundglass_unit"] = tinygltf::Value(UnitName(model.unit));
-    if (model.sigma) notes["groundglass_sigma"] = tinygltf::Value(*model.sigma);
-    if (model.georeference) {
-      const Georeference& place = *model.georeference;
-      notes["groundglass_origin"] =
-          tinygltf::Value(tinygltf::Value::Array{tinygltf::Value(place.latitude_deg),
-                                                 tinygltf::Value(place.longitude_deg),
-                                                 tinygltf::Value(place.height_m),
-                                                 tinygltf::Value(place.north_deg)});
-    }
-    gltf_.asset.extras = tinygltf::Value(notes);
-  }
-
   // Material n shows page n; the last one is plain grey.
   void AddMaterials() {
     tinygltf::Sampler sampler;
@@ -147,51 +140,61 @@ class GlbWriter {
     return static_cast<int>(gltf_.accessors.size()) - 1;
   }
 
-  tinygltf::Primitive MakePrimitive(int page, const std::vector<int>& faces) {
-    const PolygonModel& model = textured_.model;
-    const double scale = MetresPerUnit(model.unit);
+  // A primitive's vertices, three or two numbers for each, and its triangles.
+  struct Vertices {
     std::vector<float> positions;
     std::vector<float> normals;
     std::vector<float> uv;
     std::vector<uint32_t> indices;
-    tinygltf::Value::Array places;
-    tinygltf::Value::Array numbers;
-    tinygltf::Value::Array corner_counts;
-    tinygltf::Value::Array names;
-    for (const int index : faces) {
-      const Face& face = model.faces[static_cast<size_t>(index)];
-      const uint32_t first = static_cast<uint32_t>(positions.size() / 3);
-      const Eigen::Vector3f normal =
-          GltfFromWorld(ComputeFacePlane(model, index).normal_in_world).cast<float>();
-      for (size_t k = 0; k < face.points.size(); ++k) {
-        const Eigen::Vector3d& point = model.points_in_world[static_cast<size_t>(face.points[k])];
-        const Eigen::Vector3f position =
-            (scale * GltfFromWorld(point) - center_m_).cast<float>().array() + 0.0f;  // no -0
-        positions.insert(positions.end(), {position.x(), position.y(), position.z()});
-        normals.insert(normals.end(), {normal.x(), normal.y(), normal.z()});
-        if (page < 0) continue;
-        // Both have their origin at the top left corner, so there is nothing to flip.
-        const Image8& picture = textured_.pages[static_cast<size_t>(page)].srgb8;
-        const Eigen::Vector2d& texel = textured_.faces[static_cast<size_t>(index)].corners_texel[k];
-        uv.push_back(static_cast<float>(texel.x() / picture.width));
-        uv.push_back(static_cast<float>(texel.y() / picture.height));
-      }
-      for (const std::array<int, 3>& triangle : TriangulateCorners(model, index)) {
-        for (const int corner : triangle) indices.push_back(first + static_cast<uint32_t>(corner));
-      }
-      places.push_back(tinygltf::Value(index));
-      numbers.push_back(tinygltf::Value(FaceNumber(model, index)));
-      corner_counts.push_back(tinygltf::Value(static_cast<int>(face.points.size())));
-      names.push_back(tinygltf::Value(face.name));
-    }
+  };
 
+  tinygltf::Primitive MakePrimitive(int page, const std::vector<int>& faces) {
+    Vertices vertices;
+    for (const int face : faces) AppendFace(page, face, vertices);
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = page >= 0 ? page : static_cast<int>(gltf_.materials.size()) - 1;
-    primitive.attributes["POSITION"] = AddFloats(positions, TINYGLTF_TYPE_VEC3, 3);
-    SetPositionBounds(positions, gltf_.accessors.back());
-    primitive.attributes["NORMAL"] = AddFloats(normals, TINYGLTF_TYPE_VEC3, 3);
-    if (page >= 0) primitive.attributes["TEXCOORD_0"] = AddFloats(uv, TINYGLTF_TYPE_VEC2, 2);
+    primitive.attributes["POSITION"] = AddFloats(vertices.positions, TINYGLTF_TYPE_VEC3, 3);
+    SetPositionBounds(vertices.positions, gltf_.accessors.back());
+    primitive.attributes["NORMAL"] = AddFloats(vertices.normals, TINYGLTF_TYPE_VEC3, 3);
+    if (page >= 0) {
+      primitive.attributes["TEXCOORD_0"] = AddFloats(vertices.uv, TINYGLTF_TYPE_VEC2, 2);
+    }
+    primitive.indices = AddIndices(vertices.indices);
+    WriteGltfPolygons(textured_.model, faces, primitive);
+    return primitive;
+  }
+
+  // A face has vertices of its own, one for each corner, in order.
+  void AppendFace(int page, int index, Vertices& vertices) const {
+    const PolygonModel& model = textured_.model;
+    const double scale = MetresPerUnit(model.unit);
+    const Face& face = model.faces[static_cast<size_t>(index)];
+    const uint32_t first = static_cast<uint32_t>(vertices.positions.size() / 3);
+    const Eigen::Vector3f normal =
+        GltfFromWorld(ComputeFacePlane(model, index).normal_in_world).cast<float>();
+    for (size_t k = 0; k < face.points.size(); ++k) {
+      const Eigen::Vector3d& point = model.points_in_world[static_cast<size_t>(face.points[k])];
+      const Eigen::Vector3f position =
+          (scale * GltfFromWorld(point) - center_m_).cast<float>().array() + 0.0f;  // no -0
+      vertices.positions.insert(vertices.positions.end(),
+                                {position.x(), position.y(), position.z()});
+      vertices.normals.insert(vertices.normals.end(), {normal.x(), normal.y(), normal.z()});
+      if (page < 0) continue;
+      // Both have their origin at the top left corner, so there is nothing to flip.
+      const Image8& picture = textured_.pages[static_cast<size_t>(page)].srgb8;
+      const Eigen::Vector2d& texel = textured_.faces[static_cast<size_t>(index)].corners_texel[k];
+      vertices.uv.push_back(static_cast<float>(texel.x() / picture.width));
+      vertices.uv.push_back(static_cast<float>(texel.y() / picture.height));
+    }
+    for (const std::array<int, 3>& triangle : TriangulateCorners(model, index)) {
+      for (const int corner : triangle) {
+        vertices.indices.push_back(first + static_cast<uint32_t>(corner));
+      }
+    }
+  }
+
+  int AddIndices(const std::vector<uint32_t>& indices) {
     tinygltf::Accessor accessor;
     accessor.bufferView = AddBytes(
         indices.data(), indices.size() * sizeof(uint32_t), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
@@ -199,27 +202,7 @@ class GlbWriter {
     accessor.type = TINYGLTF_TYPE_SCALAR;
     accessor.count = indices.size();
     gltf_.accessors.push_back(std::move(accessor));
-    primitive.indices = static_cast<int>(gltf_.accessors.size()) - 1;
-    tinygltf::Value::Object notes;
-    notes["groundglass_faces"] = tinygltf::Value(places);
-    // The faces' numbers in the model's file, where some of its faces are left out.
-    if (!FormatFaceNumbers(model).empty()) {
-      notes["groundglass_numbers"] = tinygltf::Value(numbers);
-    }
-    notes["groundglass_corners"] = tinygltf::Value(corner_counts);
-    notes["groundglass_names"] = tinygltf::Value(names);
-    primitive.extras = tinygltf::Value(notes);
-    return primitive;
-  }
-
-  // The format requires the bounds of positions.
-  static void SetPositionBounds(const std::vector<float>& positions, tinygltf::Accessor& accessor) {
-    Eigen::Map<const Eigen::Matrix<float, 3, Eigen::Dynamic>> points(
-        positions.data(), 3, static_cast<Eigen::Index>(positions.size() / 3));
-    const Eigen::Vector3f low = points.rowwise().minCoeff();
-    const Eigen::Vector3f high = points.rowwise().maxCoeff();
-    accessor.minValues = {low.x(), low.y(), low.z()};
-    accessor.maxValues = {high.x(), high.y(), high.z()};
+    return static_cast<int>(gltf_.accessors.size()) - 1;
   }
 
   const TexturedModel& textured_;

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/keep_stages.h"
 
+#include "register/refine_set.h"
 #include "register/register.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/registration_io.h"
@@ -10,6 +11,7 @@
 #include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -30,15 +32,21 @@ std::vector<std::vector<std::string>> ReadCsv(const std::filesystem::path& file)
   return lines;
 }
 
-PhotographInput HousePhotograph(const PolygonModel& model) {
+PhotographInput HousePhotographFrom(const PolygonModel& model,
+                                    const std::string& name,
+                                    const Eigen::Vector3d& position_in_site) {
   ViewTag tag;
-  tag.position_in_site = {62, 48, 5};
+  tag.position_in_site = position_in_site;
   tag.lookat_in_site = {20, -4, 11};
   tag.aspect = 1.5;
   tag.view_angle_deg = 54;
   const Image8 grey8 = PhotographModel(model, CameraFromTag(tag, 600, 400), 2, 1);
   tag.shift_x = 0.01;
-  return {"s1", grey8, {}, tag, {}};
+  return {name, grey8, {}, tag, {}};
+}
+
+PhotographInput HousePhotograph(const PolygonModel& model) {
+  return HousePhotographFrom(model, "s1", {62, 48, 5});
 }
 
 TEST(KeepStages, WritesWhatTheStagesHandOnAndChangesNothing) {
@@ -94,6 +102,39 @@ TEST(KeepStages, WhereItCannotWriteThePhotographIsAlignedAllTheSame) {
       AlignPhotograph(HousePhotograph(model), EdgeModel(model), options);
   EXPECT_NE(kept.keep_fault, "");
   EXPECT_EQ(kept.registration.verdict, Verdict::kAccepted);
+}
+
+TEST(KeepStages, WhatIsRefinedTogetherIsWrittenAndTheSame) {
+  const PolygonModel model = MakeHouse();
+  const EdgeModel edge_model(model);
+  const std::vector<PhotographAlignment> alone = {
+      AlignPhotograph(HousePhotograph(model), edge_model, {}),
+      AlignPhotograph(HousePhotographFrom(model, "s2", {8, 62, 5}), edge_model, {})};
+  const TemporaryFolder folder;
+  RegisterOptions options;
+  options.keep_folder = folder / "kept";
+  std::vector<PhotographAlignment> kept = alone;
+  std::vector<PhotographAlignment> plain = alone;
+  RefineSet(edge_model, options, kept);
+  RefineSet(edge_model, {}, plain);
+  const auto json = nlohmann::json::parse(ReadTextFile(folder / "kept" / "joint.json"));
+  for (size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(kept[i].keep_fault, "");
+    const Registration& registration = kept[i].registration;
+    EXPECT_EQ(FormatRegistrations({registration}), FormatRegistrations({plain[i].registration}));
+    // It starts at the photograph's own camera and ends at the one that is written.
+    const auto& given = json.at("given").at("photographs").at(i);
+    const auto& found = json.at("found").at("photographs").at(i);
+    EXPECT_EQ(given.at("name"), registration.name);
+    EXPECT_EQ(given.at("tag").at("shift_x"), 0.01);
+    EXPECT_EQ(found.at("matched"), registration.num_samples);
+    EXPECT_NEAR(found.at("camera").at("y"), registration.corrected.position_in_site.y(), 1e-9);
+    EXPECT_NEAR(found.at("sigmas").at("y"), registration.sigmas.y(), 1e-12);
+    const auto samples = ReadCsv(folder / "kept" / registration.name / "joint_samples.csv");
+    ASSERT_GT(samples.size(), given.at("samples").get<size_t>());
+    EXPECT_EQ(samples.back().size(), samples[0].size());
+  }
+  EXPECT_FALSE(json.at("found").at("edges").empty());
 }
 
 }  // namespace

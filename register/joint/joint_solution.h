@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "register/camera/camera_prior.h"
+#include "register/edges/residual_spread.h"
+
+#include <Eigen/Dense>
+
+#include <optional>
+#include <vector>
+
+namespace groundglass {
+
+// How far a model edge was found from where the model has it.
+struct EdgeDisplacement {
+  int edge = -1;  // in EdgeModel::edges
+  // Of the edge's two ends, across it, model's unit.
+  Eigen::Vector3d start_in_world = Eigen::Vector3d::Zero();
+  Eigen::Vector3d end_in_world = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the edge's middle
+  int num_photographs = 0;                               // that show it
+};
+
+struct JointSolution {
+  CameraParameters whitened = CameraParameters::Zero();
+  CameraCovariance covariance = CameraCovariance::Identity();  // of the whitened parameters
+  int num_matched = 0;
+  // Of the matched samples about the model's edges as the model has them.
+  std::optional<ResidualSpread> spread = {};
+};
+
+struct JointRefinement {
+  std::vector<JointSolution> photographs;       // in the order given
+  std::vector<EdgeDisplacement> displacements;  // in order of edge
+};
+
+}  // namespace groundglass
