@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/register.h"
 
+#include "register/add_tracks.h"
 #include "register/refine_set.h"
 #include "scene/error.h"
 #include "scene/formats/ignore_mask.h"
@@ -89,7 +90,8 @@ RegisteredScene RegisterScene(const Scene& scene,
   const EdgeModel edge_model(scene.model);
   const int total = static_cast<int>(scene.photographs.size());
   std::vector<PhotographAlignment> alignments(scene.photographs.size());
-  ProgressCounter steps(progress, total);
+  const bool follows_keypoints = options.use_ties && options.use_colmap && !options.independent;
+  ProgressCounter steps(progress, total + (follows_keypoints ? 1 : 0));
   tbb::parallel_for(0, total, [&](int index) {
     const Photograph& photograph = scene.photographs[index];
     alignments[index] = AlignOrSayWhyNot(scene, photograph, lens, edge_model, options);
@@ -101,6 +103,16 @@ RegisteredScene RegisterScene(const Scene& scene,
     if (!alignment.keep_fault.empty()) registered.warnings.push_back(alignment.keep_fault);
   }
   if (!options.independent) {
+    registered.ties.patches = options.use_ties && options.ties.use_patches;
+    if (follows_keypoints) {
+      steps.Tell("what photographs share, as COLMAP finds it");
+      try {
+        registered.ties.colmap = AddColmapTracks(edge_model, options.colmap, alignments);
+      } catch (const Error& error) {
+        registered.warnings.push_back(std::string("COLMAP's matches are left out: ") +
+                                      error.what());
+      }
+    }
     try {
       registered.model_errors = FindModelErrors(
           edge_model, RefineSet(edge_model, options, alignments), options.model_errors);

@@ -11,6 +11,7 @@ void RegisterOptions::Check() const {
   prior.Check();
   solutions.Check(path + "solutions.");
   ties.Check(path + "ties.");
+  colmap.Check(path + "colmap.");
   tie_support.Check(path + "tie_support.");
   joint.Check(path + "joint.");
   model_errors.Check(path + "model_errors.");
