@@ -5,6 +5,7 @@
 #include "cli/warnings_last.h"
 #include "register/register.h"
 #include "scene/advice/advice.h"
+#include "scene/error.h"
 #include "scene/formats/pose_check.h"
 #include "scene/formats/registration_io.h"
 #include "scene/formats/select_photographs.h"
@@ -50,6 +51,13 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
   command->add_flag("--independent",
                     arguments.options.independent,
                     "each photograph by itself; else the accepted ones are refined together");
+  command
+      ->add_option("--ties",
+                   arguments.ties,
+                   "what photographs share, to refine them together: patches of faces, points "
+                   "that the program COLMAP matches, both, or none")
+      ->check(CLI::IsMember({"none", "patches", "colmap", "both"}))
+      ->capture_default_str();
   const std::string by_hand = "Help by hand, photographs by name, with commas between";
   command->add_option("--only", arguments.only, "the photographs to register; others are left out")
       ->delimiter(',')
@@ -115,7 +123,24 @@ void AddKeepOption(CLI::App* command, RegisterArguments& arguments) {
 RegisterOptions ReadRegisterOptions(const RegisterArguments& arguments) {
   RegisterOptions options = arguments.options;
   if (arguments.points_file) options.control_points = ReadControlPoints(*arguments.points_file);
+  options.use_ties = arguments.ties != "none";
+  options.ties.use_patches = arguments.ties == "patches" || arguments.ties == "both";
+  options.use_colmap = arguments.ties == "colmap" || arguments.ties == "both";
   return options;
+}
+
+OptionTexts ReadRegisterTexts(const RegisterArguments& arguments,
+                              const std::vector<const CLI::Option*>& options) {
+  OptionTexts texts = ReadOptionTexts(options);
+  const RegisterOptions set = ReadRegisterOptions(arguments);
+  if (!set.use_colmap) return texts;
+  // Once it has been installed, what was found without it is made anew.
+  try {
+    texts.values["colmap version"] = FindColmapVersion(set.colmap);
+  } catch (const Error&) {
+    texts.values["colmap version"] = "missing";
+  }
+  return texts;
 }
 
 std::optional<Lens> ReadLensArgument(const RegisterArguments& arguments) {
@@ -247,8 +272,8 @@ void PrintVerdictCounts(const std::vector<Registration>& registrations, size_t n
 void PrintRegistrationsJson(const RegisteredScene& registered,
                             const std::vector<std::string>& warnings,
                             const std::vector<std::string>& failures) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(
-      FormatRegistrations(registered.registrations, registered.model_errors, registered.warnings));
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(FormatRegistrations(
+      registered.registrations, registered.model_errors, registered.warnings, registered.ties));
   json["warnings"] = warnings;
   if (!failures.empty()) json["failures"] = failures;
   std::printf("%s\n",

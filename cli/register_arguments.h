@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/model_arguments.h"
+#include "cli/option_values.h"
 #include "register/register.h"
 #include "scene/formats/scene_folder.h"
 
@@ -26,6 +27,7 @@ struct RegisterArguments {
   std::optional<std::filesystem::path> lens_file;
   std::optional<std::filesystem::path> points_file;
   std::vector<std::string> only;  // photographs by name; empty: all
+  std::string ties = "patches";   // none, patches, colmap or both
   RegisterOptions options;
 };
 void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments);
@@ -34,6 +36,10 @@ void AddKeepOption(CLI::App* command, RegisterArguments& arguments);
 
 // What the arguments come to, with the files that they name read. Error for one at fault.
 RegisterOptions ReadRegisterOptions(const RegisterArguments& arguments);
+// What the options are set to, for telling what can be kept; with COLMAP's version where it is
+// used.
+OptionTexts ReadRegisterTexts(const RegisterArguments& arguments,
+                              const std::vector<const CLI::Option*>& options);
 std::optional<Lens> ReadLensArgument(const RegisterArguments& arguments);
 
 // Reads the scene, what is odd about it among its warnings (they are told last: WarningsLast; what

@@ -48,7 +48,8 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
                            {"warnings", scene.warnings}});
       }
       const FolderLock lock = PrepareOutputFolder(registering.out_folder);
-      const StageInputs inputs = ReadRegistrationInputs(scene, ReadOptionTexts(arguments->options));
+      const StageInputs inputs =
+          ReadRegistrationInputs(scene, ReadRegisterTexts(registering, arguments->options));
       const uint64_t seed = arguments->common.seed;
       const std::string key = RegistrationKey(seed, inputs);
       OutputStages stages(registering.out_folder, MakeManifest("register", seed, {inputs}));

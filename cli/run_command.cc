@@ -69,7 +69,7 @@ MainJobOptions ReadMainJobOptions(const RunArguments& arguments) {
   job.tiles = baking.Tiles();
   job.num_stills = arguments.num_stills;
   job.seed = arguments.common.seed;
-  job.texts = {ReadOptionTexts(options.registering),
+  job.texts = {ReadRegisterTexts(arguments.registering, options.registering),
                ReadOptionTexts(options.texture),
                ReadOptionTexts(options.tiles),
                ReadOptionTexts(options.stills)};

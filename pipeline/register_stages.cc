@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kColmapDatabase = "colmap/database.db";
+
 constexpr const char* kRegistrationFile = "registration.json";
 
 std::string OverlayFile(const std::string& name) { return "overlays/" + name + ".jpg"; }
@@ -27,7 +29,10 @@ std::string OverlayFile(const std::string& name) { return "overlays/" + name + "
 std::optional<RegisteredScene> ReadRegistered(const Scene& scene, const fs::path& file) {
   RegisteredScene registered;
   try {
-    registered = {ReadRegistrations(file), ReadModelErrors(file), ReadRegistrationWarnings(file)};
+    registered = {ReadRegistrations(file),
+                  ReadModelErrors(file),
+                  ReadRegistrationWarnings(file),
+                  ReadTieUse(file)};
   } catch (const Error&) {
     return std::nullopt;  // somebody has changed it: it is made again
   }
@@ -77,9 +82,16 @@ RegisteredScene EnsureRegistered(const Scene& scene,
     files.push_back("views/" + photograph.name + ".view");
   }
   stages.Begin(kRegisterStage, key, files);
+  // COLMAP's database outlives what is made of it: other tags or options need not match anew.
+  RegisterOptions with_folder = options;
+  if (options.use_colmap) {
+    with_folder.colmap.folder = out / kColmapStage;
+    stages.Begin(kColmapStage, "", {kColmapDatabase});
+  }
   const RegisteredScene registered =
-      RegisterScene(scene, lens, options, observer.Begin(kRegisterStage));
+      RegisterScene(scene, lens, with_folder, observer.Begin(kRegisterStage));
   WriteRegistrationOutput(scene, registered, out);
+  if (options.use_colmap) stages.Finish(kColmapStage);
   stages.Finish(kRegisterStage);
   return registered;
 }

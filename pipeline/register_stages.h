@@ -18,6 +18,9 @@ namespace groundglass {
 // What is there already with this key is kept.
 constexpr const char* kRegisterStage = "register";
 constexpr const char* kOverlayStage = "overlays";
+// Keypoints and matches, in the folder of this name. COLMAP's database knows itself what it was
+// made from, so its key never changes.
+constexpr const char* kColmapStage = "colmap";
 
 // Tells the files of these stages that somebody has changed since they were written, which are made
 // again.
@@ -25,7 +28,8 @@ void TellChanged(const OutputStages& stages,
                  const std::vector<std::string>& names,
                  const JobObserver& observer);
 
-// Corrected tags: views/, registration.json and cameras/. With options.keep_folder they are made
+// Corrected tags: views/, registration.json and cameras/; with options.use_colmap also
+// colmap/database.db, which is kept for later runs. With options.keep_folder they are made
 // anew.
 RegisteredScene EnsureRegistered(const Scene& scene,
                                  const std::optional<Lens>& lens,

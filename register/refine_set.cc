@@ -4,6 +4,7 @@
 
 #include "register/fill_registration.h"
 #include "register/keep_joint.h"
+#include "register/ties/find_ties.h"
 #include "scene/error.h"
 
 #include <tbb/parallel_for.h>
@@ -50,7 +51,9 @@ struct PhotographSet {
 };
 
 TieView ViewOf(const AlignedPhotograph& photograph) {
-  return {photograph.picture.get(), photograph.prior.CameraAt(photograph.whitened)};
+  return {photograph.picture.get(),
+          photograph.prior.CameraAt(photograph.whitened),
+          photograph.followed};
 }
 
 std::vector<TieView> ViewsOf(const std::vector<AlignedPhotograph>& photographs) {
@@ -98,8 +101,8 @@ JointRefinement Refine(const EdgeModel& edge_model,
   }
   TiePoints ties;
   if (options.use_ties) {
-    ties = FindTiePoints(
-        edge_model.model, edge_model.visibility, ViewsOf(set.photographs), options.ties);
+    ties =
+        FindTies(edge_model.model, edge_model.visibility, ViewsOf(set.photographs), options.ties);
   }
   JointRefinement joint =
       options.refine_together(edge_model, set.photographs, lenses, ties.points, joint_options);
@@ -127,7 +130,7 @@ TieSupport SupportFor(const AlignedPhotograph& photograph,
     if (i != skip) views.push_back(others[i]);
   }
   const TiePoints ties =
-      FindTiePointsOf(0, edge_model.model, edge_model.visibility, views, options.ties);
+      FindTiesOf(0, edge_model.model, edge_model.visibility, views, options.ties);
   return MeasureTieSupport(0, ties, views, edge_model.sigma, options.tie_support);
 }
 

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/register.h"
 
+#include "register/add_tracks.h"
 #include "register/notebook_overclaim.h"
 #include "register/refine_set.h"
 #include "scene/error.h"
@@ -124,6 +125,16 @@ RegisteredScene RegisterScene(const Scene& scene,
     alignments = AlignAll(scene, lens, edge_model, options, progress);
   }
   if (!options.independent) {
+    registered.ties.patches = options.use_ties && options.ties.use_patches;
+    if (options.use_ties && options.use_colmap) {
+      ProgressCounter(progress, 1).Tell("what photographs share, as COLMAP finds it");
+      try {
+        registered.ties.colmap = AddColmapTracks(edge_model, options.colmap, alignments);
+      } catch (const Error& error) {
+        registered.warnings.push_back(std::string("COLMAP's matches are left out: ") +
+                                      error.what());
+      }
+    }
     try {
       registered.model_errors = FindModelErrors(
           edge_model, RefineSet(edge_model, options, alignments), options.model_errors);

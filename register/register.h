@@ -8,6 +8,7 @@
 #include "scene/formats/scene_folder.h"
 #include "scene/progress.h"
 #include "scene/registration.h"
+#include "scene/tie_use.h"
 
 #include <optional>
 #include <string>
@@ -26,7 +27,9 @@
 //             ScoreAlignment            samples, evidence        -> how much speaks for a camera
 //   refine/   RefinePhotograph          a start                  -> the best camera near it
 //             FindSolutions, FindSecondBest  the three above          -> solutions, best first
-//   ties/     FindTiePoints             cameras found so far     -> what photographs show alike
+//   ties/     MatchWithColmap           pictures, pairs of them  -> keypoints that match (if asked)
+//             FollowMatches             matches                  -> tracks through photographs
+//             FindTies                  cameras found so far     -> what photographs show alike
 //             MeasureTieSupport         tie points, a camera     -> how much others speak for it
 //   joint/    RefineTogether            photographs, tie points  -> cameras, lenses, model's edges
 //             FindModelErrors           displaced edges          -> lines that the model has wrong
@@ -39,13 +42,14 @@ struct RegisteredScene {
   std::vector<Registration> registrations;  // in the scene's order, then those it calls unreadable
   std::vector<ModelError> model_errors;     // none if the photographs stay alone
   std::vector<std::string> warnings;        // lines for a person
+  TieUse ties;                              // what tied photographs together, if anything did
 };
 
 // Corrects the tags of a scene's photographs, on every core: each by itself, then those that are
-// accepted together (RefineSet), unless options.independent. The same whatever the number of
-// threads. Reads the photographs and their masks; one that cannot be read, or whose solution fails,
-// gets a verdict with the reason. If the common solution fails, each photograph's own is kept, with
-// a warning.
+// accepted together (AddColmapTracks if asked, RefineSet), unless options.independent. The same
+// whatever the number of threads. Reads the photographs and their masks; one that cannot be read,
+// or whose solution fails, gets a verdict with the reason. If the common solution fails, each
+// photograph's own is kept, with a warning.
 RegisteredScene RegisterScene(const Scene& scene,
                               const std::optional<Lens>& lens,
                               const RegisterOptions& options,

@@ -13,6 +13,7 @@ void RegisterOptions::Check() const {
   readings.Check(path + "readings.");
   overclaim.Check(path + "overclaim.");
   ties.Check(path + "ties.");
+  colmap.Check(path + "colmap.");
   tie_support.Check(path + "tie_support.");
   joint.Check(path + "joint.");
   model_errors.Check(path + "model_errors.");

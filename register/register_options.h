@@ -8,6 +8,7 @@
 #include "register/joint/model_errors.h"
 #include "register/refine/find_solutions.h"
 #include "register/refine/tag_readings.h"
+#include "register/ties/colmap_matches.h"
 #include "register/ties/tie_support.h"
 #include "register/verdict/overrule.h"
 #include "register/verdict/verdict.h"
@@ -49,9 +50,13 @@ struct RegisterOptions {
   int max_width_px = 1600;
   // Places that a person has recognised, of all photographs, in pixels of theirs.
   std::vector<ControlPoint> control_points;
-  // Whether photographs are compared in the planes of faces, and what they see alike ties them
-  // together.
+  // Whether what photographs see alike ties them together: patches, compared in the planes of faces
+  // (ties.use_patches), and keypoints.
   bool use_ties = true;
+  // Whether COLMAP, another program, also follows keypoints through them (docs/registration.md);
+  // with ties.use_patches false these alone tie them. Where it fails, a warning says so.
+  bool use_colmap = false;
+  ColmapOptions colmap;
   // How often they are compared anew, through the cameras found so far.
   int num_tie_rounds = 2;
   // Where what each photograph's stages hand to one another is written, to be looked at

@@ -33,7 +33,8 @@ void WriteRegistrationOutput(const Scene& scene,
   WriteColmapModel(out / "cameras", cameras);
   WriteFileAtomically(
       out / "registration.json",
-      FormatRegistrations(registrations, registered.model_errors, registered.warnings));
+      FormatRegistrations(
+          registrations, registered.model_errors, registered.warnings, registered.ties));
 }
 
 }  // namespace groundglass

@@ -29,6 +29,7 @@ mustache::data PageData(const ReportInput& input) {
   page["new_views"] = NewViewsData(input);
   page["photograph_table"] = PhotographTableData(input);
   page["coverage"] = CoverageData(input);
+  page["ties"] = TiesData(input);
   page["model_errors"] = ModelErrorsData(input);
   page["photographs"] = PhotographsData(input);
   page["warnings"] = WarningsData(input);

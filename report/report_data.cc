@@ -107,6 +107,17 @@ mustache::data ModelErrorsData(const ReportInput& input) {
   return {"lines", lines};
 }
 
+mustache::data TiesData(const ReportInput& input) {
+  std::string what = input.ties.patches ? "patches of faces that are seen alike" : "";
+  if (const std::optional<TieUse::Colmap>& colmap = input.ties.colmap) {
+    what += (what.empty() ? "" : ", and ") + std::to_string(colmap->num_tracks) +
+            " points that COLMAP " + colmap->version + " matched in " +
+            std::to_string(colmap->num_pairs) + " pairs of photographs";
+  }
+  if (what.empty()) return false;
+  return {"what", what};
+}
+
 mustache::data WarningsData(const ReportInput& input) {
   if (!input.scene || input.scene->warnings.empty()) return false;
   return {"list", TextListData(input.scene->warnings)};

@@ -21,6 +21,8 @@ kainjow::mustache::data NewViewsData(const ReportInput& input);
 kainjow::mustache::data PhotographTableData(const ReportInput& input);
 // How much of each face the photographs show. Error if coverage.json does not hold it.
 kainjow::mustache::data CoverageData(const ReportInput& input);
+// What tied the photographs together, in a sentence; false if nothing did.
+kainjow::mustache::data TiesData(const ReportInput& input);
 // Where the model is off.
 kainjow::mustache::data ModelErrorsData(const ReportInput& input);
 // Each photograph with its pictures and numbers.

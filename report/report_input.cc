@@ -38,6 +38,7 @@ ReportInput ReadReportInput(const fs::path& folder,
   if (fs::exists(registration_file)) {
     input.registrations = ReadRegistrations(registration_file);
     input.model_errors = ReadModelErrors(registration_file);
+    input.ties = ReadTieUse(registration_file);
   }
   input.coverage = ReadJsonIfThere(folder / "coverage.json");
   input.manifest = ReadJsonIfThere(folder / "manifest.json");

@@ -4,6 +4,7 @@
 
 #include "report/report.h"
 #include "scene/registration.h"
+#include "scene/tie_use.h"
 
 #include <nlohmann/json.hpp>
 
@@ -22,6 +23,7 @@ struct ReportInput {
   std::string unit;       // of lengths, as it is written behind a number: " ft"
   std::optional<std::vector<Registration>> registrations;
   std::vector<ModelError> model_errors;
+  TieUse ties;
   std::optional<nlohmann::json> coverage;
   std::optional<nlohmann::json> manifest;
 };

@@ -90,11 +90,12 @@ set(owners_stb "\\.cc$")
 set(owners_sys "\\.cc$")
 # The same for headers without a folder; any other such header is C++'s or the system's.
 set(bare_third_parties tiny_gltf.h stb_image.h stb_image_write.h jpeglib.h jerror.h utf8proc.h
-    lcms2.h)
+    lcms2.h sqlite3.h)
 set(owners_tiny_gltf.h "^scene/formats/(gltf_read|gltf_write|own_tiny_gltf|.*_io)\\.cc$")
 set(owners_jpeglib.h "^scene/formats/jpeg_file\\.cc$")
 set(owners_jerror.h "^scene/formats/jpeg_file\\.cc$")
 set(owners_utf8proc.h "^scene/formats/text_encoding\\.cc$")
+set(owners_sqlite3.h "^register/ties/colmap_database\\.cc$")
 set(owners_lcms2.h "^scene/formats/colour_profile\\.cc$")
 set(owners_stb_image.h "^NOBODY$")        # OpenImageIO reads and writes images
 set(owners_stb_image_write.h "^NOBODY$")

@@ -19,6 +19,7 @@ struct AlignedPhotograph {
   CameraPrior prior;                   // of the reading of its tag that fits (TagReading)
   std::vector<CandidateSample> found;  // sorted by edge
   std::shared_ptr<const TiePicture> picture = {};
+  FollowedPhotograph followed = {};
   CameraParameters whitened = CameraParameters::Zero();
   double noise_px = 1;  // spread of the matched residuals, within the bounds that are believed
   // For scoring the camera that comes out: where the samples are seen, and how much the best

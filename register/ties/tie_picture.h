@@ -23,6 +23,9 @@ class TiePicture {
   bool Empty() const { return levels_.empty(); }
   int width() const { return levels_.empty() ? 0 : levels_.front().width; }
   int height() const { return levels_.empty() ? 0 : levels_.front().height; }
+  // As they were given; not of an empty one.
+  const Image8& grey8() const { return levels_.front(); }
+  const Image8& ignore() const { return ignore_; }
   // The light at a place of the photograph (pixels of its own size), bilinear, from the level whose
   // pixels are nearest to px_per_texel wide. Nothing beyond the frame or where it is no evidence.
   std::optional<float> LightAt(const Eigen::Vector2d& image_px, double px_per_texel) const;

@@ -227,6 +227,7 @@ void TieOptions::Check(const std::string& path) const {
   CheckFromTo(num_stars, 1, 1000, path + "num_stars");
   CheckFromTo(num_levels, 1, 20, path + "num_levels");
   match.Check(path + "match.");
+  tracks.Check(path + "tracks.");
 }
 
 TiePoints FindTiePoints(const PolygonModel& model,

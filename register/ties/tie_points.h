@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "register/ties/feature_tracks.h"
 #include "register/ties/match_patch.h"
 #include "register/ties/tie_picture.h"
 #include "scene/camera.h"
@@ -10,12 +11,38 @@
 
 #include <Eigen/Dense>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace groundglass {
 
+// How keypoints that were followed through the photographs (FeatureTrack) become tie points.
+struct TrackOptions {
+  // A keypoint's standard deviation is hypot(floor_px, scale_share * its scale), measured through
+  // true cameras.
+  double floor_px = 0.15;
+  double scale_share = 0.08;
+  // Rays that meet a face further than this from square on say little of where on it.
+  double max_angle_deg = 80;
+  // A keypoint may lie this share of the picture's width away from where the present cameras see
+  // its track's place, and so many of what its camera is uncertain by on top. Generous: a camera
+  // that is a little off is what tie points are to mend.
+  double gate_share = 0.012;
+  double gate_sigmas = 5;
+  // How far places lie before or behind their faces as that is judged, sigmas of the model.
+  double relief_sigmas = 10;
+  // So many tracks are kept in each cell of a grid of so many columns through each photograph.
+  int grid_columns = 16;
+  int most_per_cell = 4;
+
+  // Throws Error naming the first field out of range, behind `path`.
+  void Check(const std::string& path = "track options: ") const;
+};
+
 struct TieOptions {
+  // Whether patches of faces are compared at all.
+  bool use_patches = true;
   // Patches are laid where each photograph, through a grid of this many columns, sees a face.
   int grid_columns = 16;
   int patch_texels = 32;  // a patch's side
@@ -32,15 +59,25 @@ struct TieOptions {
   // How many times a photograph is halved for patches whose texels span many of its pixels, plus 1.
   int num_levels = 3;
   PatchMatchOptions match;
+  // Keypoints count where they have been followed (TieView::followed).
+  TrackOptions tracks;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "tie point options: ") const;
+};
+
+// A photograph's place in tracks of keypoints.
+struct FollowedPhotograph {
+  std::shared_ptr<const std::vector<FeatureTrack>> tracks = {};  // nothing: none were followed
+  int photograph = -1;                                           // what they call it
+  double sigma_px = 0;  // what its camera leaves uncertain, one standard deviation
 };
 
 // A photograph as tie points are sought in it.
 struct TieView {
   const TiePicture* picture = nullptr;
   Camera camera;  // as it is found so far, for the picture's size
+  FollowedPhotograph followed = {};
 };
 
 // Where one photograph shows a tie point.

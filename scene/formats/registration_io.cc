@@ -191,6 +191,19 @@ Json JsonFromModelError(const ModelError& error) {
   return json;
 }
 
+Json JsonFromTieUse(const TieUse& ties) {
+  Json json;
+  json["patches"] = ties.patches;
+  if (ties.colmap) {
+    json["colmap"] = {{"version", ties.colmap->version},
+                      {"sha256", ties.colmap->sha256},
+                      {"photographs", ties.colmap->num_photographs},
+                      {"pairs", ties.colmap->num_pairs},
+                      {"tracks", ties.colmap->num_tracks}};
+  }
+  return json;
+}
+
 // What `read` makes of the file's JSON; errors name the file, in one line.
 template <typename Read>
 auto ReadDocument(const std::filesystem::path& file, Read read) {
@@ -209,7 +222,8 @@ auto ReadDocument(const std::filesystem::path& file, Read read) {
 
 std::string FormatRegistrations(const std::vector<Registration>& registrations,
                                 const std::vector<ModelError>& model_errors,
-                                const std::vector<std::string>& warnings) {
+                                const std::vector<std::string>& warnings,
+                                const TieUse& ties) {
   Json document;
   document["photographs"] = Json::array();
   for (const Registration& registration : registrations) {
@@ -219,6 +233,7 @@ std::string FormatRegistrations(const std::vector<Registration>& registrations,
   for (const ModelError& error : model_errors) {
     document["model_errors"].push_back(JsonFromModelError(error));
   }
+  document["ties"] = JsonFromTieUse(ties);
   document["warnings"] = warnings;
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -251,6 +266,22 @@ std::vector<ModelError> ReadModelErrors(const std::filesystem::path& file) {
 std::vector<std::string> ReadRegistrationWarnings(const std::filesystem::path& file) {
   return ReadDocument(file, [](const Json& document) {
     return document.value("warnings", std::vector<std::string>());
+  });
+}
+
+TieUse ReadTieUse(const std::filesystem::path& file) {
+  return ReadDocument(file, [](const Json& document) {
+    TieUse ties;
+    const Json json = document.value("ties", Json::object());
+    ties.patches = json.value("patches", false);
+    if (const auto colmap = json.find("colmap"); colmap != json.end()) {
+      ties.colmap = {colmap->at("version").get<std::string>(),
+                     colmap->at("sha256").get<std::string>(),
+                     colmap->at("photographs").get<int>(),
+                     colmap->at("pairs").get<int>(),
+                     colmap->at("tracks").get<int>()};
+    }
+    return ties;
   });
 }
 

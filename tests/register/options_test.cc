@@ -268,8 +268,34 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTies) {
       {"correlated_texels", [](auto& o) { o.correlated_texels = -1; }},
       {"floor_texels", [](auto& o) { o.floor_texels = 0; }},
   });
-  [[maybe_unused]] const auto& [columns, patch, search, share, angle, stars, levels, match] =
-      TieOptions();
+  [[maybe_unused]] const auto& [track_floor,
+                                track_share,
+                                track_angle,
+                                gate_share,
+                                gate_sigmas,
+                                track_relief,
+                                track_columns,
+                                per_cell] = TrackOptions();
+  ExpectCheckNamesEach<TrackOptions>({
+      {"floor_px", [](auto& o) { o.floor_px = 0; }},
+      {"scale_share", [](auto& o) { o.scale_share = -1; }},
+      {"max_angle_deg", [](auto& o) { o.max_angle_deg = 90; }},
+      {"gate_share", [](auto& o) { o.gate_share = 0; }},
+      {"gate_sigmas", [](auto& o) { o.gate_sigmas = kNotANumber; }},
+      {"relief_sigmas", [](auto& o) { o.relief_sigmas = 0; }},
+      {"grid_columns", [](auto& o) { o.grid_columns = 0; }},
+      {"most_per_cell", [](auto& o) { o.most_per_cell = 0; }},
+  });
+  [[maybe_unused]] const auto& [use_patches,
+                                columns,
+                                patch,
+                                search,
+                                share,
+                                angle,
+                                stars,
+                                levels,
+                                match,
+                                tracks] = TieOptions();
   ExpectCheckNamesEach<TieOptions>({
       {"grid_columns", [](auto& o) { o.grid_columns = 0; }},
       {"patch_texels", [](auto& o) { o.patch_texels = 7; }},
@@ -279,6 +305,19 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfTies) {
       {"num_stars", [](auto& o) { o.num_stars = 0; }},
       {"num_levels", [](auto& o) { o.num_levels = 0; }},
       {"match.min_lead", [](auto& o) { o.match.min_lead = -1; }},
+      {"tracks.floor_px", [](auto& o) { o.tracks.floor_px = -1; }},
+  });
+  [[maybe_unused]] const auto& [pair_columns, least_share, pair_angle] = CovisibleOptions();
+  ExpectCheckNamesEach<CovisibleOptions>({
+      {"grid_columns", [](auto& o) { o.grid_columns = 0; }},
+      {"least_share", [](auto& o) { o.least_share = 2; }},
+      {"max_angle_deg", [](auto& o) { o.max_angle_deg = 90; }},
+  });
+  [[maybe_unused]] const auto& [program, folder, keypoints, pairs] = ColmapOptions();
+  ExpectCheckNamesEach<ColmapOptions>({
+      {"program names no program", [](auto& o) { o.program = ""; }},
+      {"max_keypoints", [](auto& o) { o.max_keypoints = 0; }},
+      {"pairs.least_share", [](auto& o) { o.pairs.least_share = -1; }},
   });
   [[maybe_unused]] const auto& [nats, miss, loss, relief, matches, join_share, place, kept, most] =
       TieSupportOptions();
@@ -310,6 +349,8 @@ TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
                                 width,
                                 points,
                                 use_ties,
+                                use_colmap,
+                                colmap,
                                 tie_rounds,
                                 keep,
                                 together] = RegisterOptions();
@@ -322,6 +363,7 @@ TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
       {"readings.wider_factor", [](auto& o) { o.readings.wider_factor = 0.5; }},
       {"overclaim.least_overclaim", [](auto& o) { o.overclaim.least_overclaim = 0; }},
       {"ties.grid_columns", [](auto& o) { o.ties.grid_columns = 0; }},
+      {"colmap.max_keypoints", [](auto& o) { o.colmap.max_keypoints = 0; }},
       {"tie_support.match_nats", [](auto& o) { o.tie_support.match_nats = 0; }},
       {"num_tie_rounds", [](auto& o) { o.num_tie_rounds = 0; }},
       {"joint.own.edge_turn_sigmas", [](auto& o) { o.joint.own.edge_turn_sigmas = 0; }},

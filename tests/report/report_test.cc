@@ -139,6 +139,21 @@ TEST_F(ReportOf, ListsWhereTheModelIsOffInSite) {
   EXPECT_THAT(html, HasSubstr("<td class=\"n\">\u22120.250</td>"));  // south is positive
 }
 
+TEST_F(ReportOf, TellsWhatTiedThePhotographsTogether) {
+  WriteRegistrations();
+  EXPECT_THAT(MakeReport(folder_), Not(HasSubstr("refined together")));
+  TieUse ties;
+  ties.patches = true;
+  ties.colmap = {"3.8", "abc", 5, 7, 1234};
+  WriteFileAtomically(
+      folder_ / "registration.json",
+      FormatRegistrations(ReadRegistrations(folder_ / "registration.json"), {}, {}, ties));
+  EXPECT_THAT(
+      MakeReport(folder_),
+      HasSubstr("by the model’s edges and by patches of faces that are seen alike, and 1234 "
+                "points that COLMAP 3.8 matched in 7 pairs of photographs."));
+}
+
 TEST_F(ReportOf, PointsOutFacesThatNobodySees) {
   WriteCoverage();
   const std::string html = MakeReport(folder_);

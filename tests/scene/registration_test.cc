@@ -210,6 +210,26 @@ TEST(RegistrationFile, AnUnreadablePhotographHasNameAndReasons) {
   EXPECT_EQ(ReadRegistrationWarnings(file), std::vector<std::string>{"a warning"});
 }
 
+TEST(RegistrationFile, WhatTiedThePhotographsComesBack) {
+  TieUse ties;
+  ties.patches = true;
+  ties.colmap = {"3.8", "abc", 5, 7, 1234};
+  const TemporaryFolder folder;
+  const auto file = folder.Write("registration.json", FormatRegistrations({}, {}, {}, ties));
+  const TieUse read = ReadTieUse(file);
+  EXPECT_TRUE(read.patches);
+  ASSERT_TRUE(read.colmap);
+  EXPECT_EQ(read.colmap->version, "3.8");
+  EXPECT_EQ(read.colmap->sha256, "abc");
+  EXPECT_EQ(read.colmap->num_photographs, 5);
+  EXPECT_EQ(read.colmap->num_pairs, 7);
+  EXPECT_EQ(read.colmap->num_tracks, 1234);
+  // Files of before say nothing of it.
+  const auto before = folder.Write("before.json", R"({"photographs": []})");
+  EXPECT_FALSE(ReadTieUse(before).patches);
+  EXPECT_FALSE(ReadTieUse(before).colmap);
+}
+
 TEST(RegistrationFile, BadOnesGiveOneLine) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& text) {
