@@ -141,14 +141,15 @@ TEST(Told, AWrongUnitBeforeTheWorkBegins) {
                         "mm"})
                 .status,
             0);
+  // Every number held: what is told beforehand is the same, and nothing is searched for afterwards.
   const ProgramRun run = RunProgram({"run",
                                      scene.string(),
                                      "-o",
                                      (work / "out").string(),
                                      "--model",
                                      model.string(),
-                                     "--max-texture",
-                                     "256",
+                                     "--lock",
+                                     "x,y,z,yaw,pitch,roll,v,a,shift,k1",
                                      "--stills",
                                      "0"});
   const size_t told = run.err.find("it is in mm and they in ft");
