@@ -44,4 +44,10 @@ JobObserver MakeJobPrinter(const CommonOptions& common, int max_memory_mb) {
   return printer;
 }
 
+std::string DescribeKept(const std::vector<std::string>& kept) {
+  std::string list;
+  for (const std::string& stage : kept) list += (list.empty() ? "" : ", ") + stage;
+  return list.empty() ? "" : "\nwould keep what is there already of: " + list;
+}
+
 }  // namespace groundglass
