@@ -37,8 +37,8 @@ void AddBakeArguments(CLI::App* command,
 void AddTileArguments(CLI::App* command, BakeArguments& arguments);
 
 // Pictures and what is computed of them come and go. Without --memory, what they took stays with
-// the program for what it needs next, since the system would clear the pages each time, which takes
-// a seventh of the main job's time; with it, it goes back to the system.
+// the program for what it needs next, since the system would clear the pages each time; with it, it
+// goes back to the system.
 void KeepFreedMemory(int max_memory_mb);
 
 }  // namespace groundglass
