@@ -112,10 +112,12 @@ void AddTileArguments(CLI::App* command, BakeArguments& arguments) {
       ->group(group);
 }
 
-void ConfigureMallocTrimming(int max_memory_mb) {
+void KeepFreedMemory(int max_memory_mb) {
   const bool is_limited = max_memory_mb > 0;
-  mallopt(M_MMAP_THRESHOLD, is_limited ? 1 << 20 : 64 << 20);
+  // The C library takes no threshold above 32 MB.
+  mallopt(M_MMAP_THRESHOLD, is_limited ? 1 << 20 : 32 << 20);
   mallopt(M_TRIM_THRESHOLD, is_limited ? 1 << 20 : 256 << 20);
+  mallopt(M_TOP_PAD, is_limited ? 128 << 10 : 16 << 20);
 }
 
 }  // namespace groundglass

@@ -36,8 +36,9 @@ void AddBakeArguments(CLI::App* command,
 // --tiles, --tile-record and what belongs to them.
 void AddTileArguments(CLI::App* command, BakeArguments& arguments);
 
-// Pictures come and go. Without --memory, what they took stays with the program for what it needs
-// next, since the system would clear the pages each time; with it, it goes back to the system.
-void ConfigureMallocTrimming(int max_memory_mb);
+// Pictures and what is computed of them come and go. Without --memory, what they took stays with
+// the program for what it needs next, since the system would clear the pages each time; with it, it
+// goes back to the system.
+void KeepFreedMemory(int max_memory_mb);
 
 }  // namespace groundglass

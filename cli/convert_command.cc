@@ -49,8 +49,10 @@ int RunConvert(const ConvertArguments& arguments) {
     std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
   if (arguments.common.json) {
-    PrintJson(
-        {{"output", arguments.output}, {"summary", result.summary}, {"warnings", result.warnings}});
+    PrintJson({{"output", arguments.output},
+               {"summary", result.summary},
+               {"faces_left_out", result.faces_left_out},
+               {"warnings", result.warnings}});
   } else {
     std::printf("%s%s\n",
                 result.summary.c_str(),

@@ -10,6 +10,7 @@
 #include "cli/warnings_last.h"
 #include "invrender/bake_output.h"
 #include "pipeline/photograph_selection.h"
+#include "pipeline/register_stages.h"
 #include "pipeline/stage_keys.h"
 #include "pipeline/texture_stages.h"
 #include "scene/advice/advice.h"
@@ -205,13 +206,14 @@ int RunInvrender(const InvrenderArguments& arguments) {
   const StageInputs tiles_inputs = ReadStageOptions(ReadOptionTexts(arguments.tile_options));
   const uint64_t seed = arguments.common.seed;
   const std::string key = StageKey(kTextureStage, std::to_string(seed), inputs);
+  const JobObserver printer = MakeJobPrinter(arguments.common, options.memory.max_memory_mb);
+  TellDamagedManifest(out, printer);
   OutputStages stages(out, MakeManifest("invrender", seed, {inputs, tiles_inputs}));
   // What `register` left beside it stays; what `run` made of another texture does not.
   for (const char* stage : {kTextureStage, kTilesStage, kStillsStage, kReportStage}) {
     stages.KeepOnly(stage, key);
   }
   stages.Write();
-  const JobObserver printer = MakeJobPrinter(arguments.common, options.memory.max_memory_mb);
   const BakeResult result =
       BakeAndWrite(scene, photographs, options, arguments.bake.format, out, key, stages, printer);
   EnsureTiles(scene,

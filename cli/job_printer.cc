@@ -27,7 +27,7 @@ constexpr std::array<std::pair<std::string_view, const char*>, 4> kTitles = {{
 JobObserver MakeJobPrinter(const CommonOptions& common, int max_memory_mb) {
   JobObserver printer;
   printer.begun = [common, max_memory_mb](const std::string& stage) -> Progress {
-    if (stage == kTextureStage) ConfigureMallocTrimming(max_memory_mb);
+    if (stage == kTextureStage) KeepFreedMemory(max_memory_mb);
     for (const auto& [of_stage, title] : kTitles) {
       if (stage == of_stage) return MakeProgress(common, title);
     }
@@ -42,6 +42,12 @@ JobObserver MakeJobPrinter(const CommonOptions& common, int max_memory_mb) {
     std::fprintf(stderr, "groundglass: %s\n", line.c_str());
   };
   return printer;
+}
+
+std::string DescribeKept(const std::vector<std::string>& kept) {
+  std::string list;
+  for (const std::string& stage : kept) list += (list.empty() ? "" : ", ") + stage;
+  return list.empty() ? "" : "\nwould keep what is there already of: " + list;
 }
 
 }  // namespace groundglass

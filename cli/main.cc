@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "cli/bake_arguments.h"
 #include "cli/commands.h"
 #include "cli/json_output.h"
 #include "cli/option_fault.h"
@@ -34,6 +35,7 @@ std::string WithoutProgramName(const std::string& message) {
 
 int main(int argc, char** argv) {
   using namespace groundglass;
+  KeepFreedMemory(0);
   // A limit on file sizes is a full disk: an error like any other, not the end on the spot.
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{

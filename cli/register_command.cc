@@ -38,27 +38,32 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
       registering.options.Check();
       const Scene scene = ReadSceneForCommand(registering, arguments->common);
       const WarningsLast warnings(scene.warnings, arguments->common.quiet);
-      if (arguments->common.dry_run) {
-        return TellDryRun(arguments->common,
-                          "register " + std::to_string(scene.photographs.size()) +
-                              " photographs into " + registering.out_folder.string(),
-                          {{"out", registering.out_folder.string()},
-                           {"photographs", scene.photographs.size()},
-                           {"faces", scene.model.faces.size()},
-                           {"warnings", scene.warnings}});
-      }
-      const FolderLock lock = PrepareOutputFolder(registering.out_folder);
       const StageInputs inputs =
           ReadRegistrationInputs(scene, ReadRegisterTexts(registering, arguments->options));
       const uint64_t seed = arguments->common.seed;
       const std::string key = RegistrationKey(seed, inputs);
+      if (arguments->common.dry_run) {
+        const std::vector<std::string> kept =
+            FindKeptRegistration(registering.options, registering.out_folder, key);
+        return TellDryRun(arguments->common,
+                          "register " + std::to_string(scene.photographs.size()) +
+                              " photographs into " + registering.out_folder.string() +
+                              DescribeKept(kept),
+                          {{"out", registering.out_folder.string()},
+                           {"photographs", scene.photographs.size()},
+                           {"faces", scene.model.faces.size()},
+                           {"kept", kept},
+                           {"warnings", scene.warnings}});
+      }
+      const FolderLock lock = PrepareOutputFolder(registering.out_folder);
+      const JobObserver printer = MakeJobPrinter(arguments->common);
+      TellDamagedManifest(registering.out_folder, printer);
       OutputStages stages(registering.out_folder, MakeManifest("register", seed, {inputs}));
       const bool is_other = !stages.IsFrom(kRegisterStage, key);
       for (const char* stage : {kRegisterStage, kOverlayStage}) stages.KeepOnly(stage, key);
       for (const char* stage : {kTextureStage, kTilesStage, kStillsStage, kReportStage}) {
         if (is_other) stages.KeepOnly(stage, "");
       }
-      const JobObserver printer = MakeJobPrinter(arguments->common);
       TellChanged(stages, {kRegisterStage, kOverlayStage}, printer);
       stages.Write();
       const RegisteredScene registered = EnsureRegistered(scene,

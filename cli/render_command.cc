@@ -10,6 +10,7 @@
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/textured_model_io.h"
 #include "scene/formats/view_io.h"
+#include "scene/text.h"
 #include "viewer/camera_path.h"
 #include "viewer/film.h"
 #include "viewer/overlay.h"

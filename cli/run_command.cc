@@ -105,9 +105,7 @@ int DryRun(const RunArguments& arguments, const Scene& scene) {
   std::string words = "register " + std::to_string(scene.photographs.size()) +
                       " photographs, bake " + std::to_string(scene.model.faces.size()) +
                       " faces and write " + out.string();
-  std::string list;
-  for (const std::string& stage : kept) list += (list.empty() ? "" : ", ") + stage;
-  if (!kept.empty()) words += "\nwould keep what is there already of: " + list;
+  words += DescribeKept(kept);
   if (!scene.unreadable.empty()) {
     words +=
         "\nwould leave out " + std::to_string(scene.unreadable.size()) + " that cannot be read:";

@@ -121,10 +121,7 @@ MainJob BeginMainJob(const Scene& scene,
                      const JobObserver& observer) {
   const JobInputs inputs = ReadJobInputs(scene, options);
   StageKeys keys = MakeStageKeys(options.seed, inputs);
-  if (IsManifestDamaged(out)) {
-    observer.Tell("manifest.json is damaged, so that nobody knows what the files in " +
-                  out.string() + " were made with; everything is made again");
-  }
+  TellDamagedManifest(out, observer);
   OutputStages stages(
       out,
       MakeManifest(
@@ -216,15 +213,12 @@ void MainJobOptions::Check() const {
 std::vector<std::string> FindKeptStages(const Scene& scene,
                                         const fs::path& out,
                                         const MainJobOptions& options) {
-  std::vector<std::string> kept;
-  if (!options.texts || !fs::exists(out)) return kept;
+  if (!options.texts || !fs::exists(out)) return {};
   const StageKeys keys = MakeStageKeys(options.seed, ReadJobInputs(scene, options));
-  const OutputStages stages(out, {});
+  std::vector<std::string> kept = FindKeptRegistration(options.registering, out, keys.registration);
   const auto add = [&](const char* stage, const std::string& key) {
-    if (stages.IsComplete(stage, key)) kept.push_back(stage);
+    for (std::string& name : FindComplete(out, {stage}, key)) kept.push_back(std::move(name));
   };
-  add(kRegisterStage, keys.registration);
-  add(kOverlayStage, keys.registration);
   add(kTextureStage, keys.texture);
   add(kTilesStage, keys.tiles);
   add(kStillsStage, keys.stills);

@@ -48,6 +48,32 @@ std::optional<RegisteredScene> ReadRegistered(const Scene& scene, const fs::path
 
 }  // namespace
 
+void TellDamagedManifest(const fs::path& out, const JobObserver& observer) {
+  if (!IsManifestDamaged(out)) return;
+  observer.Tell("manifest.json is damaged, so that nobody knows what the files in " + out.string() +
+                " were made with; everything is made again");
+}
+
+std::vector<std::string> FindComplete(const fs::path& out,
+                                      const std::vector<std::string>& names,
+                                      const std::string& key) {
+  std::vector<std::string> complete;
+  if (!fs::exists(out)) return complete;
+  const OutputStages stages(out, {});
+  for (const std::string& name : names) {
+    if (stages.IsComplete(name, key)) complete.push_back(name);
+  }
+  return complete;
+}
+
+std::vector<std::string> FindKeptRegistration(const RegisterOptions& options,
+                                              const fs::path& out,
+                                              const std::string& key) {
+  std::vector<std::string> kept = FindComplete(out, {kRegisterStage, kOverlayStage}, key);
+  if (!options.keep_folder.empty()) std::erase(kept, kRegisterStage);
+  return kept;
+}
+
 void TellChanged(const OutputStages& stages,
                  const std::vector<std::string>& names,
                  const JobObserver& observer) {

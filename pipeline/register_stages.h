@@ -22,6 +22,22 @@ constexpr const char* kOverlayStage = "overlays";
 // made from, so its key never changes.
 constexpr const char* kColmapStage = "colmap";
 
+// Tells that the manifest which an earlier run left in `out` cannot be read, so that nothing of it
+// is kept.
+void TellDamagedManifest(const std::filesystem::path& out, const JobObserver& observer);
+
+// Of these stages, those that an earlier run has left in `out` complete with this key. Writes
+// nothing.
+std::vector<std::string> FindComplete(const std::filesystem::path& out,
+                                      const std::vector<std::string>& names,
+                                      const std::string& key);
+
+// What `register` would keep: as above, but registration is done anew where what its stages hand to
+// one another is to be kept (RegisterOptions::keep_folder).
+std::vector<std::string> FindKeptRegistration(const RegisterOptions& options,
+                                              const std::filesystem::path& out,
+                                              const std::string& key);
+
 // Tells the files of these stages that somebody has changed since they were written, which are made
 // again.
 void TellChanged(const OutputStages& stages,

@@ -236,10 +236,16 @@ void WarnOfFaults(const std::filesystem::path& file,
   mended.warnings.push_back(Error(file, message).what());
 }
 
-void KeepFaces(const std::vector<int>& faces,
-               PolygonModel& model,
-               std::vector<FaceTexture>& textures) {
-  if (faces.size() == model.faces.size()) return;
+std::vector<int> KeepFaces(const std::vector<int>& faces,
+                           PolygonModel& model,
+                           std::vector<FaceTexture>& textures) {
+  if (faces.size() == model.faces.size()) return {};
+  std::vector<char> is_kept(model.faces.size(), 0);
+  for (const int face : faces) is_kept[face] = 1;
+  std::vector<int> left_out;
+  for (int face = 0; face < static_cast<int>(is_kept.size()); ++face) {
+    if (!is_kept[face]) left_out.push_back(FaceNumber(model, face));
+  }
   std::vector<Face> kept;
   std::vector<FaceTexture> kept_textures;
   for (const int face : faces) {
@@ -248,6 +254,7 @@ void KeepFaces(const std::vector<int>& faces,
   }
   model.faces = std::move(kept);
   textures = std::move(kept_textures);
+  return left_out;
 }
 
 }  // namespace groundglass

@@ -35,9 +35,9 @@ void WarnOfFaults(const std::filesystem::path& file,
                   const std::vector<int>& lines,
                   MendedFaces& mended);
 
-// The same model with these faces only.
-void KeepFaces(const std::vector<int>& faces,
-               PolygonModel& model,
-               std::vector<FaceTexture>& textures);
+// Leaves these faces only, and returns the numbers of the others (FaceNumber).
+std::vector<int> KeepFaces(const std::vector<int>& faces,
+                           PolygonModel& model,
+                           std::vector<FaceTexture>& textures);
 
 }  // namespace groundglass

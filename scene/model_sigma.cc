@@ -18,9 +18,21 @@ constexpr double kSigmaOfBuilding_m = 0.03;
 constexpr double kSizeOfBuilding_m = 15;
 constexpr double kSizeInWrongUnit_m = 1000;
 constexpr double kShareInWrongUnit = 1e-3;
+// What a knife and a ruler leave, unless the thing is so small that it is this share of it.
+constexpr double kSigmaOfKnife_m = 0.0003;
+constexpr double kShareOfSmallest = 0.002;
 
 double SizeInMetres(const PolygonModel& model) {
   return ComputeBounds(model).Diagonal() * MetresPerUnit(model.unit);
+}
+
+// Small things are made more exactly, and not only in proportion: a hall of 40 m is known to 30 mm,
+// its maquette at 1:100 to the same share, 0.3 mm, which in proportion to a house of 15 m would be
+// 0.8 mm, too much for any photograph of it by itself.
+double SigmaInMetres(double size_m) {
+  if (size_m >= kSizeOfBuilding_m) return kSigmaOfBuilding_m;
+  const double in_growth = kSigmaOfBuilding_m * std::pow(size_m / kSizeOfBuilding_m, 1.25);
+  return std::max(in_growth, std::min(kSigmaOfKnife_m, kShareOfSmallest * size_m));
 }
 
 }  // namespace
@@ -35,7 +47,7 @@ double DefaultModelSigma(const PolygonModel& model) {
   const double size_m = SizeInMetres(model);
   const double sigma_m = model.is_unit_assumed && size_m > kSizeInWrongUnit_m
                              ? kShareInWrongUnit * size_m
-                             : kSigmaOfBuilding_m * ModelScale(model);
+                             : SigmaInMetres(size_m);
   return sigma_m / MetresPerUnit(model.unit);
 }
 

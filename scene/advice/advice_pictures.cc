@@ -18,7 +18,7 @@ namespace groundglass {
 namespace {
 
 struct Alternative {
-  double PictureFit::*score;
+  AlternativeFit PictureFit::*fit;
   const char* message;
   const char* remedy;
 };
@@ -41,10 +41,12 @@ constexpr double kMeanLead = 1;
 constexpr double kMostPictures = 0.7;
 
 bool IsClearlyMeant(const PictureFit& fit, const Alternative& alternative) {
-  const double score = fit.*alternative.score;
+  // Were it meant, its tag would be right: what fits far from the tag's place fits by chance.
+  const double score = (fit.*alternative.fit).nearby;
   if (score < kClearScore || score < fit.as_read + kClearLead) return false;
   for (const Alternative& other : kAlternatives) {
-    if (other.score != alternative.score && fit.*other.score > score - kClearLead / 2) return false;
+    if (other.fit == alternative.fit) continue;
+    if ((fit.*other.fit).anywhere > score - kClearLead / 2) return false;
   }
   return true;
 }
@@ -57,9 +59,9 @@ bool IsMeantByMost(const std::vector<PictureFit>& fits, const Alternative& alter
     if (fit.as_read == 0) continue;
     double rival = fit.as_read;
     for (const Alternative& other : kAlternatives) {
-      if (other.score != alternative.score) rival = std::max(rival, fit.*other.score);
+      if (other.fit != alternative.fit) rival = std::max(rival, (fit.*other.fit).anywhere);
     }
-    const double lead = fit.*alternative.score - rival;
+    const double lead = (fit.*alternative.fit).anywhere - rival;
     sum_of_leads += lead;
     num_better += lead > 0 ? 1 : 0;
     ++total;
@@ -90,11 +92,17 @@ PictureFit FitPicture(const AdviceContext& context,
   result.as_read = score(upright, tag);
   if (result.as_read == 0) return result;
   result.nearby = score(upright, tag, kTagReach);
-  result.upside_down = score(EdgeFit(UpsideDown(grey)), tag);
-  result.mirrored = score(EdgeFit(MirroredPicture(grey)), tag);
-  result.vertical_angle = score(upright, WithTangentTimes(tag, tag.aspect));
+  const auto fit_of = [&](const EdgeFit& fit, const ViewTag& meant) {
+    AlternativeFit scores;
+    scores.anywhere = score(fit, meant);
+    if (scores.anywhere >= kClearScore) scores.nearby = score(fit, meant, kTagReach);
+    return scores;
+  };
+  result.upside_down = fit_of(EdgeFit(UpsideDown(grey)), tag);
+  result.mirrored = fit_of(EdgeFit(MirroredPicture(grey)), tag);
+  result.vertical_angle = fit_of(upright, WithTangentTimes(tag, tag.aspect));
   result.diagonal_angle =
-      score(upright, WithTangentTimes(tag, tag.aspect / std::hypot(1.0, tag.aspect)));
+      fit_of(upright, WithTangentTimes(tag, tag.aspect / std::hypot(1.0, tag.aspect)));
   return result;
 }
 

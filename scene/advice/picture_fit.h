@@ -11,14 +11,19 @@
 
 namespace groundglass {
 
-// How the readings of one photograph fit its picture's edges (EdgeFit::Score); 0: not known.
+// How another reading of a photograph fits its picture's edges (EdgeFit::Score); 0: not known.
+struct AlternativeFit {
+  double anywhere = 0;
+  double nearby = 0;  // only within kTagReach of the tag's place, where `anywhere` is clear
+};
+// How the readings of one photograph fit its picture's edges.
 struct PictureFit {
   double as_read = 0;
   double nearby = 0;  // as read, and only within kTagReach of the tag's place
-  double upside_down = 0;
-  double mirrored = 0;
-  double vertical_angle = 0;  // v taken as the angle up and down the frame
-  double diagonal_angle = 0;  // ... as the angle from corner to corner
+  AlternativeFit upside_down;
+  AlternativeFit mirrored;
+  AlternativeFit vertical_angle;  // v taken as the angle up and down the frame
+  AlternativeFit diagonal_angle;  // ... as the angle from corner to corner
 };
 
 // Scores of chance reach 4.5; those of photographs with their right tags lie between 3.2 and 7

@@ -26,6 +26,21 @@ std::string Count(size_t number, const std::string& what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
+// "4, 12-70 and 31 more": numbers in rising order, of many the first.
+std::string ListRanges(const std::vector<int>& numbers) {
+  constexpr int kMostRanges = 8;
+  std::string list;
+  size_t i = 0;
+  for (int ranges = 0; i < numbers.size() && ranges < kMostRanges; ++ranges) {
+    const size_t first = i;
+    while (++i < numbers.size() && numbers[i] == numbers[i - 1] + 1) continue;
+    list += (list.empty() ? "" : ", ") + std::to_string(numbers[first]);
+    if (i > first + 1) list += "-" + std::to_string(numbers[i - 1]);
+  }
+  if (i < numbers.size()) list += " and " + std::to_string(numbers.size() - i) + " more";
+  return list;
+}
+
 // The same lengths, counted in another unit.
 void ChangeUnit(LengthUnit unit, PolygonModel& model) {
   const double scale = MetresPerUnit(model.unit) / MetresPerUnit(unit);
@@ -61,6 +76,11 @@ ConvertResult ConvertModel(const fs::path& input,
   result.summary = Count(textured.model.points_in_world.size(), "point") + ", " +
                    Count(textured.model.faces.size(), "face") + ", " +
                    Count(textured.pages.size(), "texture page") + " in " + output.string();
+  result.faces_left_out = std::move(reading.left_out);
+  if (!result.faces_left_out.empty()) {
+    result.summary += "; " + Count(result.faces_left_out.size(), "face") +
+                      " left out: " + ListRanges(result.faces_left_out);
+  }
   return result;
 }
 

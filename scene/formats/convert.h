@@ -15,6 +15,7 @@ namespace groundglass {
 struct ConvertResult {
   std::string summary;
   std::vector<std::string> warnings;
+  std::vector<int> faces_left_out = {};  // of a model, their numbers in the input
 };
 
 // A model from any format that is read to .osu, .obj or .glb, by the output's extension. Textures

@@ -23,6 +23,7 @@ struct MeshReading {
   TexturedModel textured;       // faces: empty if the format has no textures
   std::vector<int> face_lines;  // empty if the file has no lines
   std::vector<std::string> warnings;
+  std::vector<int> left_out = {};  // the numbers of faces with a corner that is no point
 };
 
 // PLY or STL: polygons kept, coordinates as precise as the file has them; identical points are

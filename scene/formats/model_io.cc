@@ -89,6 +89,7 @@ TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
     ModelReading osu = ReadOsu(file);
     model = std::move(osu.model);
     result.warnings = std::move(osu.warnings);
+    result.left_out = std::move(osu.left_out);
   } else {
     MeshReading mesh = ReadMesh(file, extension, options, with_pages);
     result.textured = std::move(mesh.textured);
@@ -100,7 +101,9 @@ TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
                                         : mended.warnings.back());
     }
     result.warnings.insert(result.warnings.end(), mended.warnings.begin(), mended.warnings.end());
-    KeepFaces(mended.usable, model, textures);
+    result.left_out = KeepFaces(mended.usable, model, textures);
+    result.left_out.insert(result.left_out.end(), mesh.left_out.begin(), mesh.left_out.end());
+    std::sort(result.left_out.begin(), result.left_out.end());
   }
   if (extension != ".glb" && extension != ".gltf") SetUnit(options, model);
   textures.resize(model.faces.size());
@@ -115,7 +118,8 @@ TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
 
 ModelReading ReadModel(const std::filesystem::path& file, const ModelOptions& options) {
   TexturedModelReading reading = ReadTexturedModel(file, options, false);
-  return {std::move(reading.textured.model), std::move(reading.warnings)};
+  return {
+      std::move(reading.textured.model), std::move(reading.warnings), std::move(reading.left_out)};
 }
 
 std::string FormatObj(const PolygonModel& model) {

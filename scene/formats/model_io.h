@@ -47,6 +47,7 @@ ModelReading ReadModel(const std::filesystem::path& file, const ModelOptions& op
 struct TexturedModelReading {
   TexturedModel textured;  // `faces`: one for each of the model's
   std::vector<std::string> warnings;
+  std::vector<int> left_out = {};  // the numbers of its file's faces that it does not have
 };
 
 // Reads any model as ReadModel does, with its textures if it is .glb, .gltf or .obj. Without

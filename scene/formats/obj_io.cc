@@ -190,6 +190,7 @@ class ObjReader {
     }
     if (bad.empty()) return;
     reading_.warnings.push_back(WarnOfBadCorners(file_, reading_.face_lines, model, bad));
+    for (const BadCorner& corner : bad) reading_.left_out.push_back(corner.face + 1);
     DropFaces(bad, reading_.model.faces);
     DropFaces(bad, reading_.face_lines);
     DropFaces(bad, reading_.materials);

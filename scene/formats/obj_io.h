@@ -23,6 +23,7 @@ struct ObjReading {
   std::vector<Eigen::Vector2d> texture_points;        // `vt`, v upwards from the picture's bottom
   std::vector<std::vector<int>> face_texture_points;  // of each face's corners; empty: none
   std::vector<std::string> warnings;                  // of faces that are left out
+  std::vector<int> left_out = {};                     // their numbers
 };
 
 // Throws Error naming file and line. A face with a corner that is no point is left out with a

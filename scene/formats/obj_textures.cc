@@ -107,6 +107,7 @@ MeshReading ReadTexturedObj(const std::filesystem::path& file, bool with_pages) 
   MeshReading reading;
   reading.textured.model = std::move(obj.model);
   reading.face_lines = std::move(obj.face_lines);
+  reading.left_out = std::move(obj.left_out);
   reading.warnings = std::move(obj.warnings);
   reading.textured.faces.resize(reading.textured.model.faces.size());
   if (with_pages) ObjTexturer(file, obj, reading).Texture();

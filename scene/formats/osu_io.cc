@@ -292,7 +292,7 @@ class OsuReader {
       result_.faults.push_back(Error(name_, first_lines_[face], fault.text).what());
     }
     result_.reading.warnings = std::move(mended.warnings);
-    KeepFaces(mended.usable, model_, no_textures);
+    result_.reading.left_out = KeepFaces(mended.usable, model_, no_textures);
   }
 
   std::filesystem::path name_;

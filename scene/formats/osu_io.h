@@ -14,6 +14,7 @@ namespace groundglass {
 struct ModelReading {
   PolygonModel model;
   std::vector<std::string> warnings;
+  std::vector<int> left_out = {};  // the numbers of its file's faces that it does not have
 };
 
 // Extended OSU (docs/osu-model.md): `site` in the file, `world` in memory.

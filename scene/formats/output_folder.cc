@@ -75,7 +75,7 @@ ManifestText ParseManifest(const std::string& text) {
   if (json.is_discarded()) {
     return {text.find("\"program\": \"" + std::string(kProgram)) < 100, std::nullopt};
   }
-  if (!json.is_object() || json.value("program", "") != kProgram) return {};
+  if (!json.is_object() || !json.contains("program") || json["program"] != kProgram) return {};
   try {
     return {true, ManifestFromJson(json)};
   } catch (const nlohmann::json::exception&) {
@@ -132,6 +132,11 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
   FolderLock lock(folder);
   if (std::filesystem::is_empty(folder)) return lock;
   if (!ReadManifest(folder)) {
+    if (IsManifestDamaged(folder)) {
+      throw Error(folder / kFileName,
+                  "is damaged or another program's, so that nobody knows whose the files beside it "
+                  "are; name an empty or new folder, or remove that one if it is groundglass's");
+    }
     throw Error(folder,
                 "holds files that are not ours (no manifest.json of groundglass); name an "
                 "empty or new folder");

@@ -290,6 +290,7 @@ class PlyReader {
     }
     if (bad.empty()) return;
     reading_.warnings.push_back(WarnOfBadCorners(file_, {}, Model(), bad));
+    for (const BadCorner& corner : bad) reading_.left_out.push_back(corner.face + 1);
     DropFaces(bad, Model().faces);
   }
 

@@ -7,6 +7,7 @@
 #include "scene/formats/image_kind.h"
 #include "scene/formats/image_paths.h"
 #include "scene/formats/photograph_name.h"
+#include "scene/formats/scene_folder.h"
 #include "scene/formats/text_encoding.h"
 #include "scene/formats/view_io.h"
 

@@ -85,6 +85,7 @@ TEST(Convert, TellsWhatWasMendedInAModel) {
   EXPECT_THAT(run.out, HasSubstr("108 points, 70 faces"));
   EXPECT_THAT(run.err, HasSubstr("warning: "));
   EXPECT_THAT(run.err, HasSubstr("70 faces lie twice"));
+  EXPECT_THAT(run.out, HasSubstr("; 70 faces left out: 71-140; 1 warning, see above"));
 }
 
 TEST(Convert, TellsAFaceThatIsLeftOutAndCountsIt) {
@@ -96,7 +97,10 @@ TEST(Convert, TellsAFaceThatIsLeftOutAndCountsIt) {
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("box.obj:9: face 4 is left out: point 99 is outside 1 to 5"));
   EXPECT_THAT(run.out, HasSubstr("3 faces, 0 texture pages"));
-  EXPECT_THAT(run.out, HasSubstr("; 1 warning, see above"));
+  EXPECT_THAT(run.out, HasSubstr("; 1 face left out: 4; 1 warning, see above"));
+  const ProgramRun as_json =
+      RunProgram({"convert", (work / "box.obj").string(), (work / "box.osu").string(), "--json"});
+  EXPECT_EQ(json::parse(as_json.out)["faces_left_out"], json({4}));
 }
 
 TEST(Render, AModelWithoutItsPictureIsGreyAndSaysSo) {

@@ -110,6 +110,74 @@ TEST(Told, WhyOnePhotographGivesNoStillsAndWhatWasChanged) {
       testing::AllOf(HasSubstr("manifest.json is damaged"), HasSubstr("everything is made again")));
 }
 
+// Every number held, so that registration is done in no time.
+const std::vector<std::string> kHeld = {"--lock", "x,y,z,yaw,pitch,roll,v,a,shift,k1"};
+
+TEST(Told, WhatRegisterWouldKeepAndWhatItCannotTrust) {
+  const TemporaryFolder work;
+  CopyBrick(work / "scene", {"s1"});
+  const fs::path out = work / "out";
+  std::vector<std::string> words = {"register", (work / "scene").string(), "-o", out.string()};
+  words.insert(words.end(), kHeld.begin(), kHeld.end());
+  const auto dry = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    more.push_back("--dry-run");
+    return RunProgram(more).out;
+  };
+  EXPECT_THAT(dry({}), Not(HasSubstr("would keep")));
+  const ProgramRun first = RunProgram(words);
+  const std::string made = Fingerprint(out);
+  EXPECT_THAT(dry({}), HasSubstr("would keep what is there already of: register, overlays"));
+  EXPECT_EQ(json::parse(dry({"--json"}))["kept"], json({"register", "overlays"}));
+  EXPECT_THAT(dry({"--seed", "2"}), Not(HasSubstr("would keep")));
+  // What the stages hand to one another is seen only by going through them.
+  const std::string stages = (work / "stages").string();
+  EXPECT_EQ(json::parse(dry({"--json", "--keep", stages}))["kept"], json({"overlays"}));
+
+  const std::string manifest = ReadAll(out / "manifest.json");
+  for (const std::string& bad : {manifest.substr(0, manifest.size() / 2),
+                                 std::string(R"({"program": "groundglass", "stages": 7})")}) {
+    WriteAll(out / "manifest.json", bad);
+    EXPECT_THAT(dry({}), Not(HasSubstr("would keep")));
+    const ProgramRun again = RunProgram(words);
+    EXPECT_EQ(again.status, first.status) << again.err;
+    EXPECT_THAT(again.err, HasSubstr("manifest.json is damaged"));
+    EXPECT_THAT(again.err, Not(HasSubstr("keeping the tags")));
+    EXPECT_EQ(Fingerprint(out), made);
+  }
+  EXPECT_THAT(RunProgram(words).err, Not(HasSubstr("is damaged")));
+  // Nobody knows whose folder it is.
+  for (const std::string bad : {"[1", R"({"program": 5})"}) {
+    WriteAll(out / "manifest.json", bad);
+    const ProgramRun refused = RunProgram(words);
+    EXPECT_EQ(refused.status, 1) << bad;
+    EXPECT_THAT(refused.err, HasSubstr("manifest.json: is damaged or another program's"));
+  }
+}
+
+TEST(Told, InvrenderMakesEverythingAgainUnderADamagedManifest) {
+  const TemporaryFolder work;
+  CopyBrick(work / "scene", {"s1"});
+  const fs::path out = work / "out";
+  const std::vector<std::string> words = {"invrender",
+                                          (work / "scene").string(),
+                                          "-o",
+                                          out.string(),
+                                          "--max-texture",
+                                          "256",
+                                          "--only-faces",
+                                          "3"};
+  const ProgramRun first = RunProgram(words);
+  ASSERT_EQ(first.status, 0) << first.err;
+  const std::string made = Fingerprint(out);
+  const std::string manifest = ReadAll(out / "manifest.json");
+  WriteAll(out / "manifest.json", manifest.substr(0, manifest.size() / 2));
+  const ProgramRun again = RunProgram(words);
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("manifest.json is damaged"));
+  EXPECT_EQ(Fingerprint(out), made);
+}
+
 TEST(Told, WhatADryRunCannotReadAndWhichNameIsMeant) {
   const TemporaryFolder work;
   const fs::path scene = work / "scene";
@@ -141,16 +209,17 @@ TEST(Told, AWrongUnitBeforeTheWorkBegins) {
                         "mm"})
                 .status,
             0);
-  const ProgramRun run = RunProgram({"run",
-                                     scene.string(),
-                                     "-o",
-                                     (work / "out").string(),
-                                     "--model",
-                                     model.string(),
-                                     "--max-texture",
-                                     "256",
-                                     "--stills",
-                                     "0"});
+  // What is told beforehand does not depend on what follows.
+  std::vector<std::string> words = {"run",
+                                    scene.string(),
+                                    "-o",
+                                    (work / "out").string(),
+                                    "--model",
+                                    model.string(),
+                                    "--stills",
+                                    "0"};
+  words.insert(words.end(), kHeld.begin(), kHeld.end());
+  const ProgramRun run = RunProgram(words);
   const size_t told = run.err.find("it is in mm and they in ft");
   ASSERT_NE(told, std::string::npos) << run.err;
   EXPECT_LT(told, run.err.find("registering"));

@@ -53,15 +53,20 @@ const std::vector<Image8>& Photographs() {
   return photographs;
 }
 
-// The photographs registered together on the house in other lengths: the same pictures, whatever
-// the scale.
-std::vector<PhotographAlignment> RegisterScaled(double scale,
-                                                LengthUnit unit,
-                                                std::optional<double> sigma) {
+PolygonModel ScaledHouse(double scale, LengthUnit unit, std::optional<double> sigma) {
   PolygonModel model = MakeHouse();
   for (Eigen::Vector3d& point : model.points_in_world) point *= scale;
   model.unit = unit;
   model.sigma = sigma;
+  return model;
+}
+
+// The photographs registered by themselves on the house in other lengths: the same pictures,
+// whatever the scale.
+std::vector<PhotographAlignment> AlignScaled(double scale,
+                                             LengthUnit unit,
+                                             std::optional<double> sigma) {
+  const PolygonModel model = ScaledHouse(scale, unit, sigma);
   const EdgeModel edge_model(model);
   std::vector<PhotographAlignment> alignments;
   for (size_t i = 0; i < Photographs().size(); ++i) {
@@ -71,7 +76,16 @@ std::vector<PhotographAlignment> RegisterScaled(double scale,
     alignments.push_back(
         AlignPhotograph({"s" + std::to_string(i), Photographs()[i], {}, tag, {}}, edge_model, {}));
   }
-  RefineSet(edge_model, {}, alignments);
+  return alignments;
+}
+
+// The same, registered together.
+std::vector<PhotographAlignment> RegisterScaled(double scale,
+                                                LengthUnit unit,
+                                                std::optional<double> sigma) {
+  std::vector<PhotographAlignment> alignments = AlignScaled(scale, unit, sigma);
+  const PolygonModel model = ScaledHouse(scale, unit, sigma);
+  RefineSet(EdgeModel(model), {}, alignments);
   for (PhotographAlignment& alignment : alignments) FinishVerdict({}, alignment);
   return alignments;
 }
@@ -104,6 +118,22 @@ TEST(ModelTolerance, AMaquetteIsRegisteredLikeItsBuilding) {
                   0.3 * small.vertex_sigma_px);
     }
   }
+}
+
+TEST(ModelTolerance, AMaquetteOfALargeHallIsAsCertainAsTheHall) {
+  // 41 m across, and 0.41 m; each photograph by itself.
+  const auto vertex_sigmas = [](double scale, LengthUnit unit) {
+    std::vector<double> sigmas_px;
+    for (PhotographAlignment& alignment : AlignScaled(scale, unit, {})) {
+      FinishVerdict({}, alignment);
+      EXPECT_EQ(alignment.registration.verdict, Verdict::kAccepted) << alignment.registration.name;
+      sigmas_px.push_back(alignment.registration.vertex_sigma_px);
+    }
+    return sigmas_px;
+  };
+  const std::vector<double> hall = vertex_sigmas(2.4, LengthUnit::kFoot);
+  const std::vector<double> maquette = vertex_sigmas(2.4 * 0.003048, LengthUnit::kMetre);
+  for (size_t i = 0; i < hall.size(); ++i) EXPECT_NEAR(maquette[i], hall[i], 0.3 * hall[i]) << i;
 }
 
 TEST(ModelTolerance, ALargerSigmaMakesEveryCameraLessCertain) {

@@ -34,13 +34,23 @@ TEST(ModelSigma, IsThreeCentimetresForBuildings) {
   EXPECT_DOUBLE_EQ(ModelSigma(OfSize(20000, LengthUnit::kMillimetre)), 30);
 }
 
-TEST(ModelSigma, IsInProportionForMaquettes) {
-  EXPECT_NEAR(ModelSigma(OfSize(0.3, LengthUnit::kMetre)), 0.0006, 1e-12);
-  EXPECT_NEAR(ModelSigma(OfSize(300, LengthUnit::kMillimetre)), 0.6, 1e-9);
-  EXPECT_NEAR(ModelSigma(OfSize(30, LengthUnit::kCentimetre)), 0.06, 1e-9);
-  EXPECT_NEAR(ModelSigma(OfSize(12, LengthUnit::kInch)), 0.024, 1e-9);
+TEST(ModelSigma, IsSmallerForMaquettes) {
+  // 0.03 m (size / 15 m)^(5/4).
+  EXPECT_NEAR(ModelSigma(OfSize(0.9375, LengthUnit::kMetre)), 0.03 / 32, 1e-12);
+  EXPECT_NEAR(ModelSigma(OfSize(937.5, LengthUnit::kMillimetre)), 30.0 / 32, 1e-9);
+  // No less than 0.3 mm.
+  EXPECT_NEAR(ModelSigma(OfSize(0.3, LengthUnit::kMetre)), 0.0003, 1e-12);
+  EXPECT_NEAR(ModelSigma(OfSize(300, LengthUnit::kMillimetre)), 0.3, 1e-9);
+  EXPECT_NEAR(ModelSigma(OfSize(30, LengthUnit::kCentimetre)), 0.03, 1e-9);
+  EXPECT_NEAR(ModelSigma(OfSize(12, LengthUnit::kInch)), 0.0118110, 1e-6);
+  // What is smaller still: 0.2 %.
+  EXPECT_NEAR(ModelSigma(OfSize(50, LengthUnit::kMillimetre)), 0.1, 1e-9);
   // No step where a maquette becomes a building.
   EXPECT_NEAR(ModelSigma(OfSize(14.999, LengthUnit::kMetre)), 0.03, 1e-5);
+  // A hall of 40 m and its maquette at 1:100 are known to the same share.
+  EXPECT_NEAR(ModelSigma(OfSize(0.4, LengthUnit::kMetre)) / 0.4,
+              ModelSigma(OfSize(40, LengthUnit::kMetre)) / 40,
+              0.1 * 0.03 / 40);
 }
 
 TEST(ModelSigma, IsInProportionWhereTheUnitIsAssumedAndCannotBe) {

@@ -351,6 +351,23 @@ TEST(FindOddities, PicturesUpsideDownOrMirrored) {
               ElementsAre(HasSubstr("mirrored left to right")));
 }
 
+TEST(FindOddities, APictureThatFitsOnlyTurnedAndFarFromItsTagsPlaceIsChance) {
+  // Turned and moved across by a tenth of its width: turned back, it would not lie where a right
+  // tag has it.
+  const auto moved = [](const Image8& p) {
+    return Transposed(
+        p,
+        [&](int x, int y) {
+          return std::array{(p.width - 1 - x + p.width / 10) % p.width, p.height - 1 - y};
+        },
+        p.width,
+        p.height);
+  };
+  for (const std::string& line : SpoiledPictures({0, 1}, moved).Oddities()) {
+    EXPECT_THAT(line, testing::Not(HasSubstr("turned by 180 degrees")));
+  }
+}
+
 TEST(FindOddities, APictureOnItsSide) {
   const auto on_its_side = [](const Image8& p) {
     return Transposed(
