@@ -168,13 +168,9 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
     return alignment;
   }
   const TagReading& reading = readings.front();
-  alignment.keep_fault = KeepIfAsked({photograph.name,
-                                      photograph.grey8,
-                                      edge_model,
-                                      reading.prior,
-                                      evidence,
-                                      reading.solutions},
-                                     options);
+  alignment.keep_fault = KeepIfAsked(
+      {photograph.name, photograph.grey8, edge_model, reading.prior, evidence, reading.solutions},
+      options);
   const Solution& best = reading.solutions.front();
   const Refinement& refined = best.refinement;
   const Rival rival = FindRival(readings, options.solutions);

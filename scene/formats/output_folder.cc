@@ -134,7 +134,7 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
   if (!ReadManifest(folder)) {
     if (IsManifestDamaged(folder)) {
       throw Error(folder / kFileName,
-                  "is damaged or another program's, so that nobody knows whose the files beside it "
+                  "is damaged or not ours, so that nobody knows whose the files beside it "
                   "are; name an empty or new folder, or remove that one if it is groundglass's");
     }
     throw Error(folder,

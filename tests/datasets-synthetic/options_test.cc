@@ -11,13 +11,20 @@ namespace groundglass {
 namespace {
 
 TEST(SynthOptions, CheckNamesEachField) {
-  [[maybe_unused]] const auto& [trials, seed, position, height, lookat, blunders, registration] =
-      TrialOptions();
+  [[maybe_unused]] const auto& [trials,
+                                seed,
+                                position,
+                                height,
+                                lookat,
+                                overclaim,
+                                blunders,
+                                registration] = TrialOptions();
   ExpectCheckNamesEach<TrialOptions>({
       {"num_trials", [](auto& o) { o.num_trials = 0; }},
       {"sigma_position", [](auto& o) { o.sigma_position = kNotANumber; }},
       {"sigma_height", [](auto& o) { o.sigma_height = 0; }},
       {"sigma_lookat", [](auto& o) { o.sigma_lookat = kInfinity; }},
+      {"overclaim", [](auto& o) { o.overclaim = 0; }},
       {"num_blunders", [](auto& o) { o.num_blunders = -1; }},
       {"registration options: max_width_px", [](auto& o) { o.registration.max_width_px = 0; }},
   });
