@@ -100,8 +100,10 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
   command->add_option("--sigma-a", prior.aspect_share, "aspect, as a share of it")
       ->capture_default_str()
       ->group(group);
-  command->add_option("--sigma-shift", prior.shift, "fraction of the frame's width")
-      ->capture_default_str()
+  command
+      ->add_option("--sigma-shift",
+                   prior.shift,
+                   "fraction of the frame's width; 0.015 if not given, 0.005 if --digital")
       ->group(group);
   command->add_option("--sigma-k1", prior.k1, "radial distortion")
       ->capture_default_str()

@@ -113,7 +113,7 @@ using LensAndSlideSigmas = Eigen::Matrix<double, kNumLensAndSlide, 1>;
 LensAndSlideSigmas SigmasOfTag(const ViewTag& tag,
                                const TagSigmas& noted,
                                const PriorOptions& options) {
-  const double shift = noted.shift.value_or(options.shift);
+  const double shift = noted.shift.value_or(options.OwnShift());
   LensAndSlideSigmas sigmas;
   sigmas << noted.roll_deg.value_or(options.roll_deg),
       noted.view_angle_deg.value_or(options.view_angle_share * tag.view_angle_deg),
@@ -135,8 +135,8 @@ LensAndSlideSigmas SigmasOfLens(const Lens& lens, double roll_deg, const PriorOp
       std::hypot(lens.sigma_view_angle_deg,
                  slide * options.slide_scale_share * view_angle_by_scale),
       std::hypot(lens.sigma_aspect, slide * options.slide_aspect_share * lens.aspect),
-      std::hypot(lens.sigma_shift_x, slide * options.shift),
-      std::hypot(lens.sigma_shift_y, slide * options.shift), lens.sigma_k1;
+      std::hypot(lens.sigma_shift_x, slide * options.OwnShift()),
+      std::hypot(lens.sigma_shift_y, slide * options.OwnShift()), lens.sigma_k1;
   const auto free_at_least = [&](CameraParameter parameter, double own) {
     if (!IsNamed(options.free, parameter)) return;
     double& sigma = sigmas[parameter - kRoll];
@@ -144,8 +144,8 @@ LensAndSlideSigmas SigmasOfLens(const Lens& lens, double roll_deg, const PriorOp
   };
   free_at_least(kViewAngle, options.view_angle_share * lens.view_angle_deg);
   free_at_least(kAspect, options.aspect_share * lens.aspect);
-  free_at_least(kShiftX, options.shift);
-  free_at_least(kShiftY, options.shift);
+  free_at_least(kShiftX, options.OwnShift());
+  free_at_least(kShiftY, options.OwnShift());
   free_at_least(kK1, options.k1);
   return sigmas;
 }
@@ -211,7 +211,9 @@ void PriorOptions::Check() const {
   require_positive(roll_deg, "sigma-roll");
   require_positive(view_angle_share, "sigma-v");
   require_positive(aspect_share, "sigma-a");
-  require_positive(shift, "sigma-shift");
+  require_positive(shift.value_or(slide_shift), "sigma-shift");
+  require_positive(slide_shift, "slide_shift");
+  require_positive(digital_shift, "digital_shift");
   require_positive(k1, "sigma-k1");
   CheckAtLeast(slide_scale_share, 0, "prior options: slide_scale_share");
   CheckAtLeast(slide_aspect_share, 0, "prior options: slide_aspect_share");

@@ -29,7 +29,11 @@ struct PriorOptions {
   double roll_deg = 1.5;
   double view_angle_share = 0.01;
   double aspect_share = 0.005;
-  double shift = 0.015;  // fraction of the frame's width, each way
+  // Fraction of the frame's width, each way. Where nobody gives it: a slide's in its mount, or a
+  // digital camera's principal point.
+  std::optional<double> shift;
+  double slide_shift = 0.015;
+  double digital_shift = 0.005;
   double k1 = 0.05;
 
   // What a slide's mount and its scan add to a calibrated lens. No slides: set digital.
@@ -49,6 +53,8 @@ struct PriorOptions {
   // Parameters that are looked for as if neither the tag nor the lens file gave a standard
   // deviation: these options' own are taken, unless the lens file's are larger. Names as for lock.
   std::vector<std::string> free;
+
+  double OwnShift() const { return shift.value_or(digital ? digital_shift : slide_shift); }
 
   void Check() const;  // throws Error naming the first field out of range
 };

@@ -155,6 +155,18 @@ TEST(CameraPrior, AWiderPoseScalesPositionAndDirectionOnly) {
           .isApprox(after, 1e-12));
 }
 
+TEST(CameraPrior, ADigitalCamerasPrincipalPointIsNearerThanASlides) {
+  PriorOptions options;
+  const auto sigma = [&] {
+    return MakeCameraPrior(LevelTag(), 640, 427, LengthUnit::kFoot, {}, options).sigmas[kShiftX];
+  };
+  EXPECT_NEAR(sigma(), options.slide_shift, 1e-12);
+  options.digital = true;
+  EXPECT_NEAR(sigma(), options.digital_shift, 1e-12);
+  options.shift = 0.02;  // somebody knows better
+  EXPECT_NEAR(sigma(), 0.02, 1e-12);
+}
+
 TEST(CameraPrior, ADigitalCamerasPixelsAreSquare) {
   PriorOptions digital;
   digital.digital = true;
