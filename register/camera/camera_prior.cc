@@ -211,7 +211,7 @@ void PriorOptions::Check() const {
   require_positive(roll_deg, "sigma-roll");
   require_positive(view_angle_share, "sigma-v");
   require_positive(aspect_share, "sigma-a");
-  require_positive(shift.value_or(slide_shift), "sigma-shift");
+  if (shift) require_positive(*shift, "sigma-shift");
   require_positive(slide_shift, "slide_shift");
   require_positive(digital_shift, "digital_shift");
   require_positive(k1, "sigma-k1");

@@ -151,7 +151,7 @@ TEST(Told, WhatRegisterWouldKeepAndWhatItCannotTrust) {
     WriteAll(out / "manifest.json", bad);
     const ProgramRun refused = RunProgram(words);
     EXPECT_EQ(refused.status, 1) << bad;
-    EXPECT_THAT(refused.err, HasSubstr("manifest.json: is damaged or another program's"));
+    EXPECT_THAT(refused.err, HasSubstr("manifest.json: is damaged or not ours"));
   }
 }
 
