@@ -107,6 +107,32 @@ std::vector<PhotographAlignment> AlignAll(const Scene& scene,
   return alignments;
 }
 
+// What photographs share ties them together; what cannot be had of it is a warning.
+void RefineWhatIsShared(const EdgeModel& edge_model,
+                        const RegisterOptions& options,
+                        const Progress& progress,
+                        std::vector<PhotographAlignment>& alignments,
+                        RegisteredScene& registered) {
+  registered.ties.patches = options.use_ties && options.ties.use_patches;
+  if (options.use_ties && options.use_colmap) {
+    ProgressCounter(progress, 1).Tell("what photographs share, as COLMAP finds it");
+    try {
+      registered.ties.colmap = AddColmapTracks(edge_model, options.colmap, alignments);
+    } catch (const Error& error) {
+      registered.warnings.push_back(std::string("COLMAP's matches are left out: ") + error.what());
+    }
+  }
+  try {
+    registered.model_errors = FindModelErrors(
+        edge_model, RefineSet(edge_model, options, alignments), options.model_errors);
+  } catch (const Error& error) {
+    registered.warnings.push_back(
+        std::string("the photographs stay as they were found one by one, since they could not "
+                    "be refined together: ") +
+        error.what());
+  }
+}
+
 }  // namespace
 
 RegisteredScene RegisterScene(const Scene& scene,
@@ -119,31 +145,13 @@ RegisteredScene RegisterScene(const Scene& scene,
   std::vector<PhotographAlignment> alignments =
       AlignAll(scene, lens, edge_model, options, progress);
   RegisteredScene registered;
-  if (const auto overclaim = FindOverclaim(alignments, options.overclaim)) {
-    registered.warnings.push_back(DescribeOverclaim(*overclaim));
-    options.prior.overclaim = *overclaim;
-    alignments = AlignAll(scene, lens, edge_model, options, progress);
-  }
   if (!options.independent) {
-    registered.ties.patches = options.use_ties && options.ties.use_patches;
-    if (options.use_ties && options.use_colmap) {
-      ProgressCounter(progress, 1).Tell("what photographs share, as COLMAP finds it");
-      try {
-        registered.ties.colmap = AddColmapTracks(edge_model, options.colmap, alignments);
-      } catch (const Error& error) {
-        registered.warnings.push_back(std::string("COLMAP's matches are left out: ") +
-                                      error.what());
-      }
+    if (const auto overclaim = FindOverclaim(alignments, options.overclaim)) {
+      registered.warnings.push_back(DescribeOverclaim(*overclaim));
+      options.prior.overclaim = *overclaim;
+      alignments = AlignAll(scene, lens, edge_model, options, progress);
     }
-    try {
-      registered.model_errors = FindModelErrors(
-          edge_model, RefineSet(edge_model, options, alignments), options.model_errors);
-    } catch (const Error& error) {
-      registered.warnings.push_back(
-          std::string("the photographs stay as they were found one by one, since they could not "
-                      "be refined together: ") +
-          error.what());
-    }
+    RefineWhatIsShared(edge_model, options, progress, alignments, registered);
   }
   for (PhotographAlignment& alignment : alignments) {
     FinishVerdict(options, alignment);
