@@ -188,7 +188,7 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   const ParameterProjection projection = reading.prior.ProjectionAt(refined.whitened);
   ApplyJudgement(JudgeFit(support, options.verdict), registration);
   ApplyJudgement(JudgeConvergence(refined.outcome), registration);
-  alignment.is_clear = registration.verdict == Verdict::kAccepted && reading.slip.empty();
+  const bool is_clear = registration.verdict == Verdict::kAccepted && reading.slip.empty();
   ApplyJudgement(JudgeTag(reading.prior.ParametersAt(refined.whitened),
                           written,
                           reading.slip,
@@ -197,10 +197,8 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
                  registration);
   registration.undetermined = FindUndetermined(registration.sigmas, written, options.verdict);
   ApplyJudgement(JudgeControlPoints(points, projection, size.scale, options.verdict), registration);
-  if (!HasCorrection(registration.verdict) || !points.empty()) {
-    alignment.is_clear = false;
-    return alignment;
-  }
+  if (!HasCorrection(registration.verdict) || !points.empty()) return alignment;
+  alignment.is_clear = is_clear;
   const auto tie_picture =
       std::make_shared<const TiePicture>(picture.grey8, picture.ignore, options.ties.num_levels);
   const auto align = [&](const TagReading& of, const Solution& solution, const Rival& elsewhere) {
