@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <string>
 
 namespace groundglass {
 namespace {
@@ -85,6 +87,42 @@ TEST(RegisterScene, ATagThatLooksIntoTheSkyIsRejectedOrPutRightAndNeverAccepted)
   EXPECT_EQ(lost.verdict, Verdict::kRejected);
   EXPECT_EQ(lost.corrected, lost.measured);
   EXPECT_NE(lost.reasons.at(0).find("says next to nothing"), std::string::npos);
+}
+
+// A notebook that claims 2.4 inches and errs by 1.8 ft on every page: told, believed less, and its
+// cameras are found all the same. Alone, a photograph knows nothing of the other pages.
+TEST(RegisterScene, ANotebookThatClaimsTooMuchIsToldAndBelievedLess) {
+  Scene scene = ReadScene(BrickFolder());
+  const std::map<std::string, Eigen::Vector3d> errors = {
+      {"s1", {1.4, -1.1, 0}}, {"s3", {-1.3, 1.2, 0}}, {"s7", {1.2, 1.5, 0}}, {"s8", {-1.5, -1, 0}}};
+  std::erase_if(scene.photographs,
+                [&](const Photograph& one) { return !errors.contains(one.name); });
+  for (Photograph& photograph : scene.photographs) {
+    photograph.tag.position_in_site += errors.at(photograph.name);
+    photograph.tag.sigmas.position = 0.2;
+    photograph.tag.sigmas.height = 0.1;
+    photograph.tag.sigmas.lookat = 0.2;
+  }
+  const auto tells = [](const RegisteredScene& registered) {
+    return std::any_of(
+        registered.warnings.begin(), registered.warnings.end(), [](const std::string& warning) {
+          return warning.find("claim more than they hold") != std::string::npos;
+        });
+  };
+  const RegisteredScene registered = RegisterScene(scene, {}, {}, {});
+  EXPECT_TRUE(tells(registered));
+  const std::vector<NamedCamera> truth = ReadColmapModel(BrickFolder() / "truth" / "cameras");
+  for (const Registration& registration : registered.registrations) {
+    EXPECT_EQ(registration.verdict, Verdict::kAccepted) << registration.name;
+    EXPECT_GT(registration.prior_sigmas[kPositionX], 0.3) << registration.name;
+    for (const NamedCamera& camera : truth) {
+      if (std::filesystem::path(camera.name).stem() != registration.name) continue;
+      EXPECT_LT(VertexErrorPx(scene.model, camera.camera, registration.CorrectedCamera()), 1.5);
+    }
+  }
+  RegisterOptions independent;
+  independent.independent = true;
+  EXPECT_FALSE(tells(RegisterScene(scene, {}, independent, {})));
 }
 
 TEST(RegisterScene, RealPhotographsAreFoundToThreeFifthsOfAPixel) {

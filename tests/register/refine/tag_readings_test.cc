@@ -172,20 +172,32 @@ TEST(FindRival, IsTheBestElsewhereInAnyReading) {
   EXPECT_EQ(FindRival(readings, fixture.solutions).solution, nullptr);
 }
 
-// From the photograph to the verdict: many sigmas off, found and told.
+// From the photograph to the verdict: a house from the south-east, and tags that are wrong.
+struct HouseFromTheSouthEast {
+  PolygonModel model = MakeHouse();
+  ViewTag truth;
+  Camera camera;
+  Image8 photograph;
+
+  HouseFromTheSouthEast() : truth(TrueTag()) {
+    truth.position_in_site = {62, 48, 5};
+    truth.lookat_in_site = {20, -4, 11};
+    camera = CameraFromTag(truth, 600, 400);
+    photograph = PhotographModel(model, camera, 2, 5);
+  }
+
+  Registration Register(const ViewTag& written) const {
+    return RegisterPhotograph({"test", photograph, {}, written, {}}, EdgeModel(model), {});
+  }
+};
+
 TEST(RegisterPhotograph, ATagThatErrsMoreThanItClaimsIsFoundAndTold) {
-  const PolygonModel model = MakeHouse();
-  ViewTag truth = TrueTag();
-  truth.position_in_site = {62, 48, 5};
-  truth.lookat_in_site = {20, -4, 11};
-  const Camera camera = CameraFromTag(truth, 600, 400);
-  const Image8 photograph = PhotographModel(model, camera, 2, 5);
-  ViewTag written = truth;
+  const HouseFromTheSouthEast house;
+  ViewTag written = house.truth;
   written.sigmas.position = 0.5;
   written.position_in_site.y() -= 8;
-  const Registration found =
-      RegisterPhotograph({"test", photograph, {}, written, {}}, EdgeModel(model), {});
-  EXPECT_LT(VertexErrorPx(model, camera, found.CorrectedCamera()), 1);
+  const Registration found = house.Register(written);
+  EXPECT_LT(VertexErrorPx(house.model, house.camera, found.CorrectedCamera()), 1);
   EXPECT_EQ(found.verdict, Verdict::kReview);
   EXPECT_THAT(found.reasons,
               ElementsAre(testing::AllOf(HasSubstr("other than written: "),
@@ -194,17 +206,11 @@ TEST(RegisterPhotograph, ATagThatErrsMoreThanItClaimsIsFoundAndTold) {
 }
 
 TEST(RegisterPhotograph, ABlunderIsNamedAndPutRight) {
-  const PolygonModel model = MakeHouse();
-  ViewTag truth = TrueTag();
-  truth.position_in_site = {62, 48, 5};
-  truth.lookat_in_site = {20, -4, 11};
-  const Camera camera = CameraFromTag(truth, 600, 400);
-  const Image8 photograph = PhotographModel(model, camera, 2, 5);
-  ViewTag written = truth;
+  const HouseFromTheSouthEast house;
+  ViewTag written = house.truth;
   written.position_in_site.y() *= -1;
-  const Registration found =
-      RegisterPhotograph({"test", photograph, {}, written, {}}, EdgeModel(model), {});
-  EXPECT_LT(VertexErrorPx(model, camera, found.CorrectedCamera()), 1);
+  const Registration found = house.Register(written);
+  EXPECT_LT(VertexErrorPx(house.model, house.camera, found.CorrectedCamera()), 1);
   EXPECT_EQ(found.verdict, Verdict::kReview);
   EXPECT_THAT(found.reasons, ElementsAre(HasSubstr("but with the sign of y changed")));
 }
