@@ -3,6 +3,7 @@
 #include "evaluate/picture_measures.h"
 
 #include "scene/error.h"
+#include "scene/srgb.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -12,10 +13,10 @@
 namespace groundglass {
 namespace {
 
-// Rec. 709 luma of encoded values.
+// Of encoded values.
 cv::Mat LumaOf(const cv::Mat& rgb) {
   cv::Mat luma;
-  cv::transform(rgb, luma, cv::Matx13f(0.2126f, 0.7152f, 0.0722f));
+  cv::transform(rgb, luma, cv::Matx13f(kLumaWeights.data()));
   return luma;
 }
 

@@ -15,4 +15,11 @@ float SrgbFromLinear(float linear);
 const std::array<float, 256>& LinearOfSrgb8();
 uint8_t Srgb8FromLinear(float linear);
 
+// What red, green and blue contribute to the brightness of linear light, or of codes (ITU-R
+// BT.709).
+inline constexpr std::array<float, 3> kLumaWeights = {0.2126f, 0.7152f, 0.0722f};
+inline float Luma(float red, float green, float blue) {
+  return kLumaWeights[0] * red + kLumaWeights[1] * green + kLumaWeights[2] * blue;
+}
+
 }  // namespace groundglass

@@ -53,9 +53,4 @@ uint8_t Srgb8FromRadiance(float radiance);
 void Srgb8FromRadiance(std::span<const float> radiance, uint8_t* srgb8);
 uint16_t Srgb16FromRadiance(float radiance);
 
-// Of linear light or of codes (Rec. 709).
-inline float Luma(float red, float green, float blue) {
-  return 0.2126f * red + 0.7152f * green + 0.0722f * blue;
-}
-
 }  // namespace groundglass

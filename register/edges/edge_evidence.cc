@@ -55,12 +55,8 @@ void ScaleByNoise(ImageF& gradient) {
 }
 
 cv::Mat LightOf(const cv::Mat& grey8) {
-  cv::Mat light_of_code(1, 256, CV_32F);
-  for (int code = 0; code < 256; ++code) {
-    light_of_code.at<float>(code) = LinearFromSrgb(static_cast<float>(code) / 255);
-  }
   cv::Mat light;
-  cv::LUT(grey8, light_of_code, light);
+  cv::LUT(grey8, cv::Mat(1, 256, CV_32F, const_cast<float*>(LinearOfSrgb8().data())), light);
   return light;
 }
 

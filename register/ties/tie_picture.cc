@@ -10,21 +10,6 @@
 #include <cmath>
 
 namespace groundglass {
-namespace {
-
-const std::array<float, 256>& LightOfCodes() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (int code = 0; code < 256; ++code) {
-      values[code] = LinearFromSrgb(static_cast<float>(code) / 255);
-    }
-    return values;
-  }();
-  return table;
-}
-
-}  // namespace
-
 TiePicture::TiePicture(const Image8& grey8, const Image8& ignore, int num_levels)
     : levels_{grey8}, ignore_(ignore) {
   while (static_cast<int>(levels_.size()) < num_levels) {
@@ -53,7 +38,7 @@ std::optional<float> TiePicture::LightAt(const Eigen::Vector2d& image_px,
   if (left < 0 || top < 0 || left + 1 >= level.width || top + 1 >= level.height) {
     return std::nullopt;
   }
-  const std::array<float, 256>& light = LightOfCodes();
+  const std::array<float, 256>& light = LinearOfSrgb8();
   const auto across = static_cast<float>(x - left);
   const auto down = static_cast<float>(y - top);
   const uint8_t* upper = level.At(left, top);

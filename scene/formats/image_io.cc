@@ -142,8 +142,7 @@ Image8 ReadGrey8(const std::filesystem::path& file) {
   Image8 grey(srgb8.width, srgb8.height, 1);
   for (size_t i = 0; i < grey.values.size(); ++i) {
     const uint8_t* rgb = &srgb8.values[3 * i];
-    grey.values[i] =
-        static_cast<uint8_t>(0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2] + 0.5f);
+    grey.values[i] = static_cast<uint8_t>(Luma(rgb[0], rgb[1], rgb[2]) + 0.5f);
   }
   return grey;
 }
