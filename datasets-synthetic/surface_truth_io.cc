@@ -8,9 +8,10 @@
 #include "scene/frames.h"
 #include "scene/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace groundglass {
 namespace {
@@ -28,18 +29,14 @@ fs::path PageFile(const fs::path& folder, const char* what, int page) {
 
 std::string FormatCharts(const std::vector<SurfaceChart>& charts) {
   std::string text = std::string(kColumns) + "\n";
-  char line[400];
   for (const SurfaceChart& chart : charts) {
-    std::snprintf(line,
-                  sizeof line,
-                  "%d,%d,%d,%d,%d,%d",
-                  chart.face + 1,
-                  chart.page,
-                  chart.left,
-                  chart.top,
-                  chart.width,
-                  chart.height);
-    text += line;
+    text += fmt::format("{},{},{},{},{},{}",
+                        chart.face + 1,
+                        chart.page,
+                        chart.left,
+                        chart.top,
+                        chart.width,
+                        chart.height);
     for (const Eigen::Vector3d& in_world :
          {chart.corner_in_world, chart.step_right_in_world, chart.step_down_in_world}) {
       const Eigen::Vector3d in_site = SiteFromWorld(in_world);

@@ -7,9 +7,10 @@
 #include "scene/quantile.h"
 #include "scene/symmetric_eigen.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace groundglass {
@@ -60,16 +61,13 @@ std::optional<double> FindOverclaim(const std::vector<PhotographAlignment>& alig
 }
 
 std::string DescribeOverclaim(double overclaim) {
-  char text[320];
-  std::snprintf(text,
-                sizeof text,
-                "the tags claim more than they hold: most photographs lie %.1f times further from "
-                "them than their standard deviations allow, which were taken to be %.1f times "
-                "larger; write larger sigma_position, sigma_height and sigma_lookat, or give "
-                "--sigma-position, --sigma-height and --sigma-lookat",
-                overclaim,
-                overclaim);
-  return text;
+  return fmt::format(
+      "the tags claim more than they hold: most photographs lie {:.1f} times further from "
+      "them than their standard deviations allow, which were taken to be {:.1f} times "
+      "larger; write larger sigma_position, sigma_height and sigma_lookat, or give "
+      "--sigma-position, --sigma-height and --sigma-lookat",
+      overclaim,
+      overclaim);
 }
 
 }  // namespace groundglass

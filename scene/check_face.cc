@@ -4,9 +4,10 @@
 
 #include "scene/face_outline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 namespace groundglass {
@@ -124,12 +125,8 @@ FaceCheck CheckFace(const PolygonModel& model, int face_index) {
   const bool has_area = ComputeFaceArea(model, face_index) > kZeroAreaShare * size * size;
   check.fault = FindFaultOfOutline(face, flat.corners, tolerance, has_area);
   if (check.fault.empty() && flat.deviation > kPlanarShare * size) {
-    char text[128];
-    std::snprintf(text,
-                  sizeof(text),
-                  "is %.2g %% of its size out of plane; its best plane is used",
-                  100 * flat.deviation / size);
-    check.warning = text;
+    check.warning = fmt::format("is {:.2g} % of its size out of plane; its best plane is used",
+                                100 * flat.deviation / size);
   }
   return check;
 }

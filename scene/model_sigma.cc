@@ -5,9 +5,10 @@
 #include "scene/error.h"
 #include "scene/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <vector>
 
@@ -83,9 +84,7 @@ void ReadSigmaComment(std::string_view rest,
 }
 
 std::string DescribeModelSigma(const PolygonModel& model) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%.3g %s", ModelSigma(model), UnitName(model.unit).c_str());
-  std::string description = text;
+  std::string description = fmt::format("{:.3g} {}", ModelSigma(model), UnitName(model.unit));
   if (!model.sigma) {
     description += ", by default ('% sigma:' in the model or --sigma-model says another)";
   }

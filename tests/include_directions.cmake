@@ -82,7 +82,7 @@ set(owners_GL "^viewer/.*\\.cc$")
 set(owners_EGL "^viewer/.*\\.cc$")
 set(owners_CLI "^cli/.*\\.(h|cc)$")
 set(owners_nlohmann "(\\.cc|^cli/.*\\.h)$")
-set(owners_fmt "^(report|evaluate|cli)/.*\\.cc$")
+set(owners_fmt ".*\\.cc$")
 set(owners_kainjow "^report/.*\\.cc$")  # with the headers that are not installed
 set(owners_openssl "^(scene/formats/output_folder|report/embedded_picture)\\.cc$")
 set(owners_tbb "\\.cc$")

@@ -11,10 +11,10 @@
 #include "scene/formats/output_folder.h"
 #include "scene/text.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <optional>
 
@@ -74,11 +74,7 @@ class WorkFolder {
 };
 
 // COLMAP parts names in lists at blanks, so photographs get numbers there.
-std::string ImageNameOf(size_t photograph) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%05zu.png", photograph + 1);
-  return name;
-}
+std::string ImageNameOf(size_t photograph) { return fmt::format("{:05}.png", photograph + 1); }
 
 std::vector<std::string> ImageNamesOf(size_t num_photographs) {
   std::vector<std::string> names;

@@ -4,19 +4,13 @@
 
 #include "scene/check_option.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace groundglass {
 namespace {
-
-template <typename... Args>
-std::string Format(const char* format, Args... args) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
 
 // The parameter that the photograph narrowed least.
 std::string LeastCertain(const Registration& registration) {
@@ -36,11 +30,11 @@ std::string LeastCertain(const Registration& registration) {
 // `site`.
 std::string DescribeChange(CameraParameter parameter, double change, LengthUnit unit) {
   const auto say = [&](const std::string& unit_name, const char* if_more, const char* if_less) {
-    return Format("%s %.3g%s %s",
-                  kCameraParameterNames[parameter].data(),
-                  std::abs(change),
-                  unit_name.c_str(),
-                  change > 0 ? if_more : if_less);
+    return fmt::format("{} {:.3g}{} {}",
+                       kCameraParameterNames[parameter],
+                       std::abs(change),
+                       unit_name,
+                       change > 0 ? if_more : if_less);
   };
   const std::string length = " " + UnitName(unit);
   const std::string angle = " degrees";
@@ -99,17 +93,17 @@ Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options) {
   const AlignmentScore& score = evidence.score;
   if (score.nats <= 0) {
     Add(Verdict::kRejected,
-        Format("the model's edges meet the photograph's no better than by chance "
-               "(score %.0f nats)",
-               score.nats),
+        fmt::format("the model's edges meet the photograph's no better than by chance "
+                    "(score {:.0f} nats)",
+                    score.nats),
         judgement);
   }
   if (score.nats > 0 && score.nats < options.min_nats && !evidence.has_control_points &&
       score.nats + evidence.tie_nats < options.min_nats) {
     Add(Verdict::kRejected,
-        Format(
-            "the photograph says next to nothing about its camera (score %.1f nats; chance finds "
-            "a place with up to %.0f)",
+        fmt::format(
+            "the photograph says next to nothing about its camera (score {:.1f} nats; chance finds "
+            "a place with up to {:.0f})",
             score.nats,
             options.min_nats),
         judgement);
@@ -119,15 +113,15 @@ Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options) {
       (score.nats + std::max(0.0, evidence.tie_nats)) / std::max(1.0, score.observations);
   if (score.nats > 0 && nats_per_observation < options.min_nats_per_observation) {
     Add(Verdict::kReview,
-        Format("few of the model's edges are in the photograph (%.2f nats an observation)",
-               nats_per_observation),
+        fmt::format("few of the model's edges are in the photograph ({:.2f} nats an observation)",
+                    nats_per_observation),
         judgement);
   }
   if (evidence.margin_nats && *evidence.margin_nats < LeastMargin(score, options)) {
     Add(Verdict::kReview,
-        Format("another camera %.1f px away fits almost as well (margin %.0f nats)",
-               evidence.second_best_distance_px,
-               *evidence.margin_nats),
+        fmt::format("another camera {:.1f} px away fits almost as well (margin {:.0f} nats)",
+                    evidence.second_best_distance_px,
+                    *evidence.margin_nats),
         judgement);
   }
   return judgement;
@@ -168,7 +162,7 @@ Judgement JudgeInnovation(const CameraParameters& parameters,
     if (sigmas <= options.max_prior_sigmas) continue;
     const char* separator = differs.empty() ? "" : ", ";
     differs += separator + DescribeChange(static_cast<CameraParameter>(i), change[i], unit);
-    times += separator + Format("%.1f", sigmas);
+    times += separator + fmt::format("{:.1f}", sigmas);
   }
   if (!differs.empty()) {
     Add(Verdict::kReview,
@@ -179,9 +173,9 @@ Judgement JudgeInnovation(const CameraParameters& parameters,
   const double chi_squared = whitened.squaredNorm();
   if (chi_squared > options.max_prior_chi_squared) {
     Add(Verdict::kReview,
-        Format("the change as a whole is larger than the tag's sigmas allow "
-               "(chi-squared %.0f of 11)",
-               chi_squared),
+        fmt::format("the change as a whole is larger than the tag's sigmas allow "
+                    "(chi-squared {:.0f} of 11)",
+                    chi_squared),
         judgement);
   }
   return judgement;
@@ -206,9 +200,9 @@ Judgement JudgePrecision(const Registration& registration, const VerdictOptions&
   const double to_640 = 640.0 / registration.width_px;
   if (registration.vertex_sigma_px * to_640 <= options.max_vertex_sigma_px) return {};
   return {Verdict::kReview,
-          {Format("the model's points are known to %.1f px only; %s is the least certain",
-                  registration.vertex_sigma_px,
-                  LeastCertain(registration).c_str())}};
+          {fmt::format("the model's points are known to {:.1f} px only; {} is the least certain",
+                       registration.vertex_sigma_px,
+                       LeastCertain(registration))}};
 }
 
 Judgement JudgeControlPoints(const std::vector<ControlPoint>& points,
@@ -221,18 +215,19 @@ Judgement JudgeControlPoints(const std::vector<ControlPoint>& points,
     const auto seen_px = projection.ImageOf(point.point_in_world);
     if (!seen_px) {
       Add(Verdict::kReview,
-          Format("the control point at %.0f %.0f is behind the camera", at.x(), at.y()),
+          fmt::format("the control point at {:.0f} {:.0f} is behind the camera", at.x(), at.y()),
           judgement);
       continue;
     }
     const double distance_px = (*seen_px - point.image_px).norm();
     if (distance_px <= options.max_control_point_sigmas * point.sigma_px) continue;
     Add(Verdict::kReview,
-        Format("the control point at %.0f %.0f is seen %.1f px away, %.1f of its sigmas",
-               at.x(),
-               at.y(),
-               distance_px / scale,
-               distance_px / point.sigma_px),
+        fmt::format(
+            "the control point at {:.0f} {:.0f} is seen {:.1f} px away, {:.1f} of its sigmas",
+            at.x(),
+            at.y(),
+            distance_px / scale,
+            distance_px / point.sigma_px),
         judgement);
   }
   return judgement;

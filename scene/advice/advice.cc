@@ -6,8 +6,8 @@
 #include "scene/advice/advice_parts.h"
 #include "scene/advice/picture_fit.h"
 
-#include <array>
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <optional>
 
 namespace groundglass {
@@ -43,18 +43,8 @@ std::string ListNames(const std::vector<std::string>& names) {
 }
 
 std::string FormatLength(double length, LengthUnit unit) {
-  std::array<char, 80> text;
-  if (unit == LengthUnit::kMetre) {
-    std::snprintf(text.data(), text.size(), "%.4g m", length);
-  } else {
-    std::snprintf(text.data(),
-                  text.size(),
-                  "%.4g %s (%.3g m)",
-                  length,
-                  UnitName(unit).c_str(),
-                  length * MetresPerUnit(unit));
-  }
-  return text.data();
+  if (unit == LengthUnit::kMetre) return fmt::format("{:.4g} m", length);
+  return fmt::format("{:.4g} {} ({:.3g} m)", length, UnitName(unit), length * MetresPerUnit(unit));
 }
 
 bool IsImplausible(const Standpoint& standpoint) {
