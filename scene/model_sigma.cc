@@ -15,12 +15,12 @@
 namespace groundglass {
 namespace {
 
-constexpr double kSigmaOfBuilding_m = 0.03;
-constexpr double kSizeOfBuilding_m = 15;
-constexpr double kSizeInWrongUnit_m = 1000;
+constexpr double kSigmaOfBuildingMetres = 0.03;
+constexpr double kSizeOfBuildingMetres = 15;
+constexpr double kSizeInWrongUnitMetres = 1000;
 constexpr double kShareInWrongUnit = 1e-3;
 // What a knife and a ruler leave, unless the thing is so small that it is this share of it.
-constexpr double kSigmaOfKnife_m = 0.0003;
+constexpr double kSigmaOfKnifeMetres = 0.0003;
 constexpr double kShareOfSmallest = 0.002;
 
 double SizeInMetres(const PolygonModel& model) {
@@ -31,9 +31,9 @@ double SizeInMetres(const PolygonModel& model) {
 // its maquette at 1:100 to the same share, 0.3 mm, which in proportion to a house of 15 m would be
 // 0.8 mm, too much for any photograph of it by itself.
 double SigmaInMetres(double size_m) {
-  if (size_m >= kSizeOfBuilding_m) return kSigmaOfBuilding_m;
-  const double in_growth = kSigmaOfBuilding_m * std::pow(size_m / kSizeOfBuilding_m, 1.25);
-  return std::max(in_growth, std::min(kSigmaOfKnife_m, kShareOfSmallest * size_m));
+  if (size_m >= kSizeOfBuildingMetres) return kSigmaOfBuildingMetres;
+  const double in_growth = kSigmaOfBuildingMetres * std::pow(size_m / kSizeOfBuildingMetres, 1.25);
+  return std::max(in_growth, std::min(kSigmaOfKnifeMetres, kShareOfSmallest * size_m));
 }
 
 }  // namespace
@@ -41,12 +41,12 @@ double SigmaInMetres(double size_m) {
 double ModelScale(const PolygonModel& model) {
   const double size_m = SizeInMetres(model);
   // A model without extent is none; nothing is to be divided by its size.
-  return size_m > 0 ? std::min(1.0, size_m / kSizeOfBuilding_m) : 1;
+  return size_m > 0 ? std::min(1.0, size_m / kSizeOfBuildingMetres) : 1;
 }
 
 double DefaultModelSigma(const PolygonModel& model) {
   const double size_m = SizeInMetres(model);
-  const double sigma_m = model.is_unit_assumed && size_m > kSizeInWrongUnit_m
+  const double sigma_m = model.is_unit_assumed && size_m > kSizeInWrongUnitMetres
                              ? kShareInWrongUnit * size_m
                              : SigmaInMetres(size_m);
   return sigma_m / MetresPerUnit(model.unit);

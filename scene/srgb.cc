@@ -53,14 +53,14 @@ float SrgbFromLinear(float linear) {
 }
 
 const std::array<float, 256>& LinearOfSrgb8() {
-  static const std::array<float, 256> kLinear = [] {
+  static const std::array<float, 256> table = [] {
     std::array<float, 256> linear;
     for (size_t code = 0; code < linear.size(); ++code) {
       linear[code] = LinearFromSrgb(static_cast<float>(code) / 255.0f);
     }
     return linear;
   }();
-  return kLinear;
+  return table;
 }
 
 uint8_t Srgb8FromLinear(float linear) {

@@ -95,6 +95,29 @@ std::optional<long long> ParseInteger(std::string_view word) {
   return value;
 }
 
+std::string WhyNoNumber(std::string_view word) {
+  if (ParseNumber(word)) return Quote(word) + " is not a finite number";
+  const std::string fault = Quote(word) + " is not a number";
+  std::string with_points(word);
+  std::replace(with_points.begin(), with_points.end(), ',', '.');
+  if (with_points != word && ParseNumber(with_points)) {
+    return fault + "; write " + with_points + ", with a point";
+  }
+  // The minus sign, the hyphen and the dashes that word processors put in place of `-`.
+  for (const std::string_view dash : {"\u2212", "\u2010", "\u2011", "\u2012", "\u2013", "\u2014"}) {
+    if (!word.starts_with(dash)) continue;
+    const std::string with_minus = "-" + std::string(word.substr(dash.size()));
+    if (ParseNumber(with_minus)) return fault + ", for its minus is a dash; write " + with_minus;
+  }
+  const size_t end = word.find_first_not_of("+-.0123456789");
+  if (end != std::string_view::npos && end > 0 && ParseNumber(word.substr(0, end)) &&
+      std::isalpha(static_cast<unsigned char>(word[end])) != 0 && word[end] != 'x') {
+    return fault + "; write " + std::string(word.substr(0, end)) + " alone, without " +
+           Quote(word.substr(end));
+  }
+  return fault;
+}
+
 std::string FormatNumber(double value) {
   char digits[64];
   // An easting is 500000 to people, not 5e+05.

@@ -35,6 +35,10 @@ std::vector<TextLine> SplitLines(std::string_view text, char comment_mark = '%')
 std::optional<double> ParseNumber(std::string_view word);
 std::optional<long long> ParseInteger(std::string_view word);
 
+// What is wrong with a word that should be a finite number, in words that follow `Subject: `; for
+// words for which ParseNumber gives nothing, or nothing finite.
+std::string WhyNoNumber(std::string_view word);
+
 // The shortest digits that read back as exactly this number, whatever the machine's locale.
 std::string FormatNumber(double value);
 

@@ -15,10 +15,10 @@ namespace groundglass {
 namespace {
 
 // What a tape and a tripod leave uncertain.
-constexpr double kPosition_m = 0.076;
-constexpr double kHeight_m = 0.030;
-constexpr double kLookat_m = 0.122;
-constexpr double kBestOfRulers_m = 0.001;
+constexpr double kPositionMetres = 0.076;
+constexpr double kHeightMetres = 0.030;
+constexpr double kLookatMetres = 0.122;
+constexpr double kBestOfRulersMetres = 0.001;
 // A direction whose squared length is less than this, in sigmas, is none.
 constexpr double kSingular = 1e-20;
 
@@ -78,11 +78,11 @@ MeasuredSigmas SigmasOfMeasured(const ViewTag& tag,
     return own.value_or(std::max(metres * units_per_metre, share * distance));
   };
   const double position = length_sigma(
-      noted.position, options.position_m.value_or(kPosition_m), options.position_share);
+      noted.position, options.position_m.value_or(kPositionMetres), options.position_share);
   const double height =
-      length_sigma(noted.height, options.height_m.value_or(kHeight_m), options.height_share);
+      length_sigma(noted.height, options.height_m.value_or(kHeightMetres), options.height_share);
   const double lookat =
-      length_sigma(noted.lookat, options.lookat_m.value_or(kLookat_m), options.lookat_share);
+      length_sigma(noted.lookat, options.lookat_m.value_or(kLookatMetres), options.lookat_share);
   MeasuredSigmas sigmas;
   sigmas << position, position, height, lookat, lookat, lookat;
   return sigmas;
@@ -202,11 +202,11 @@ void PriorOptions::Check() const {
                         "a standard deviation must be above 0, not " + FormatNumber(value));
     }
   };
-  require_positive(position_m.value_or(kPosition_m), "sigma-position");
+  require_positive(position_m.value_or(kPositionMetres), "sigma-position");
   CheckAtLeast(position_share, 0, "prior options: position_share");
-  require_positive(height_m.value_or(kHeight_m), "sigma-height");
+  require_positive(height_m.value_or(kHeightMetres), "sigma-height");
   CheckAtLeast(height_share, 0, "prior options: height_share");
-  require_positive(lookat_m.value_or(kLookat_m), "sigma-lookat");
+  require_positive(lookat_m.value_or(kLookatMetres), "sigma-lookat");
   CheckAtLeast(lookat_share, 0, "prior options: lookat_share");
   require_positive(roll_deg, "sigma-roll");
   require_positive(view_angle_share, "sigma-v");
@@ -232,11 +232,11 @@ void PriorOptions::Check() const {
 PriorOptions PriorSuitedTo(const PolygonModel& model, PriorOptions options) {
   const double scale = ModelScale(model);
   const auto fill_in = [&](std::optional<double>& length_m, double at_building_m) {
-    if (!length_m) length_m = std::max(scale * at_building_m, kBestOfRulers_m);
+    if (!length_m) length_m = std::max(scale * at_building_m, kBestOfRulersMetres);
   };
-  fill_in(options.position_m, kPosition_m);
-  fill_in(options.height_m, kHeight_m);
-  fill_in(options.lookat_m, kLookat_m);
+  fill_in(options.position_m, kPositionMetres);
+  fill_in(options.height_m, kHeightMetres);
+  fill_in(options.lookat_m, kLookatMetres);
   return options;
 }
 

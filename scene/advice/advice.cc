@@ -17,7 +17,7 @@ std::string FormatAdvice(const Advice& advice) {
 }
 
 std::string ShellWord(const std::filesystem::path& path) {
-  const std::string text = path.string();
+  std::string text = path.string();
   const std::string_view plain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,:@%=";
   if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;

@@ -16,17 +16,17 @@ namespace groundglass {
 namespace {
 
 constexpr size_t kFewestHeights = 4;
-constexpr double kEye_m = 1.6;
+constexpr double kEyeMetres = 1.6;
 // Between these above the model's foot, slopes explain a camera that is held by hand.
-constexpr double kLowestUsual_m = 0.6;
-constexpr double kHighestUsual_m = 3.2;
+constexpr double kLowestUsualMetres = 0.6;
+constexpr double kHighestUsualMetres = 3.2;
 // So far from the median are heights of cameras that were held alike, and so many are.
-constexpr double kAlike_m = 1;
+constexpr double kAlikeMetres = 1;
 constexpr double kAlikeShare = 0.6;
 // Only near the tag's own place: farther off, a wrong height is mended by turning the camera.
 constexpr double kNearness = 0.35;
 // The model's foot may lie on a plinth or in a cellar: these are tried about its height.
-constexpr std::array<double, 5> kFeet_m = {0, -1, 1, -2, 2};
+constexpr std::array<double, 5> kFeetMetres = {0, -1, 1, -2, 2};
 
 }  // namespace
 
@@ -41,17 +41,17 @@ bool AdviseOnDatum(const AdviceContext& context, const PictureJudge& judge) {
   std::sort(eyes_m.begin(), eyes_m.end());
   const double eye_m = eyes_m[eyes_m.size() / 2];
   const auto num_alike = std::count_if(eyes_m.begin(), eyes_m.end(), [&](double height_m) {
-    return std::abs(height_m - eye_m) <= kAlike_m;
+    return std::abs(height_m - eye_m) <= kAlikeMetres;
   });
-  if ((eye_m >= kLowestUsual_m && eye_m <= kHighestUsual_m) ||
+  if ((eye_m >= kLowestUsualMetres && eye_m <= kHighestUsualMetres) ||
       static_cast<double>(num_alike) < kAlikeShare * static_cast<double>(eyes_m.size())) {
     return false;
   }
   const std::vector<double> as_read = judge.Fit(model, {}, kNearness);
   double best_datum = 0;
   std::vector<double> best_fits = as_read;
-  for (const double foot_m : kFeet_m) {
-    const double datum = (eye_m - kEye_m + foot_m) / metres;
+  for (const double foot_m : kFeetMetres) {
+    const double datum = (eye_m - kEyeMetres + foot_m) / metres;
     const auto retag = [datum](ViewTag tag) {
       tag.position_in_site.z() -= datum;
       tag.lookat_in_site.z() -= datum;

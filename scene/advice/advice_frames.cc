@@ -14,7 +14,7 @@ namespace {
 // NTSC frames have pixels 1.1 from square; beyond this somebody has turned something.
 constexpr double kOddAspect = 1.3;
 // Of frames of one lens.
-constexpr double kSameAngle_deg = 0.05;
+constexpr double kSameAngleDeg = 0.05;
 constexpr double kSameShape = 0.03;
 
 bool Suits(double tag_aspect, double picture_aspect) {
@@ -41,7 +41,7 @@ bool HasTwinOfItsShape(const AdviceContext& context, const Photograph& photograp
                        return &other != &photograph && SuitsPicture(other) &&
                               std::abs(other.tag.aspect / aspect - 1) < kSameShape &&
                               std::abs(other.tag.view_angle_deg - photograph.tag.view_angle_deg) <
-                                  kSameAngle_deg;
+                                  kSameAngleDeg;
                      });
 }
 
@@ -95,7 +95,7 @@ void AdviseOnUprightAngles(const AdviceContext& context) {
     if (tag.aspect > 0.9 || !SuitsPicture(upright)) continue;
     const bool has_twin = std::any_of(
         context.scene.photographs.begin(), context.scene.photographs.end(), [&](const auto& lying) {
-          return std::abs(lying.tag.view_angle_deg - tag.view_angle_deg) < kSameAngle_deg &&
+          return std::abs(lying.tag.view_angle_deg - tag.view_angle_deg) < kSameAngleDeg &&
                  std::abs(lying.tag.aspect * tag.aspect - 1) < kSameShape;
         });
     if (!has_twin) continue;

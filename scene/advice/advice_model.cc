@@ -17,13 +17,13 @@ namespace groundglass {
 namespace {
 
 // Beyond these a model is no building and no town.
-constexpr double kLargestModel_m = 8000;
-constexpr double kSmallestModel_m = 0.02;
+constexpr double kLargestModelMetres = 8000;
+constexpr double kSmallestModelMetres = 0.02;
 // People hold a camera at this height above what they stand on.
-constexpr double kLowestEye_m = 1.1;
-constexpr double kHighestEye_m = 2.3;
-constexpr double kSmallestBuilding_m = 2;
-constexpr double kLargestTown_m = 3000;
+constexpr double kLowestEyeMetres = 1.1;
+constexpr double kHighestEyeMetres = 2.3;
+constexpr double kSmallestBuildingMetres = 2;
+constexpr double kLargestTownMetres = 3000;
 
 constexpr std::array<LengthUnit, 5> kCandidates = {LengthUnit::kMillimetre,
                                                    LengthUnit::kMetre,
@@ -46,9 +46,9 @@ std::optional<LengthUnit> FindLikelyUnit(double diagonal, const std::optional<do
   for (const LengthUnit unit : kCandidates) {
     const double metres = MetresPerUnit(unit);
     const bool is_building =
-        diagonal * metres > kSmallestBuilding_m && diagonal * metres < kLargestTown_m;
-    const bool is_held = !eye_height || (*eye_height * metres > kLowestEye_m &&
-                                         *eye_height * metres < kHighestEye_m);
+        diagonal * metres > kSmallestBuildingMetres && diagonal * metres < kLargestTownMetres;
+    const bool is_held = !eye_height || (*eye_height * metres > kLowestEyeMetres &&
+                                         *eye_height * metres < kHighestEyeMetres);
     if (is_building && is_held) return unit;
   }
   return std::nullopt;
@@ -65,8 +65,8 @@ void AdviseOnSize(const AdviceContext& context, bool with_eyes) {
   const double metres = MetresPerUnit(model.unit);
   const double diagonal = context.bounds.Diagonal();
   const std::optional<double> eye_height = with_eyes ? MedianEyeHeight(context) : std::nullopt;
-  const bool is_large = diagonal * metres > kLargestModel_m;
-  const bool is_small = diagonal * metres < kSmallestModel_m;
+  const bool is_large = diagonal * metres > kLargestModelMetres;
+  const bool is_small = diagonal * metres < kSmallestModelMetres;
   const bool has_odd_eyes = eye_height && (*eye_height * metres < 0.6 || *eye_height * metres > 8);
   // A unit that somebody has stated is doubted only where it cannot be.
   if (!is_large && !is_small && !(model.is_unit_assumed && has_odd_eyes)) return;
@@ -118,8 +118,8 @@ void AdviseOnStatedUnit(const AdviceContext& context) {
   constexpr size_t kFewestSides = 3;
   constexpr double kMost = 0.7;
   constexpr double kAlike = 1.3;  // between the heights, from the lowest fifth to the middle
-  constexpr double kLowestDoubtful_m = 0.7;
-  constexpr double kHighestDoubtful_m = 3.5;
+  constexpr double kLowestDoubtfulMetres = 0.7;
+  constexpr double kHighestDoubtfulMetres = 3.5;
   const PolygonModel& model = context.scene.model;
   if (model.is_unit_assumed || IsGltf(context)) return;
   std::vector<double> heights;
@@ -139,7 +139,7 @@ void AdviseOnStatedUnit(const AdviceContext& context) {
   const double eye = heights[count / 2];
   const double metres = MetresPerUnit(model.unit);
   if (heights.front() <= 0 || heights[count * 7 / 10] > kAlike * heights[count / 5]) return;
-  if (eye * metres > kLowestDoubtful_m && eye * metres < kHighestDoubtful_m) return;
+  if (eye * metres > kLowestDoubtfulMetres && eye * metres < kHighestDoubtfulMetres) return;
   const std::optional<LengthUnit> likely = FindLikelyUnit(context.bounds.Diagonal(), eye);
   if (!likely || *likely == model.unit) return;
   context.Add(Advice::Severity::kDetail,

@@ -12,10 +12,10 @@ namespace groundglass {
 namespace {
 
 // So coarse that a hand-written tag is a few pixels off, and a roll of a degree is none.
-constexpr int kLongSide_px = 256;
+constexpr int kLongSidePx = 256;
 // How far the edges are moved each way, as a share of the long side.
 constexpr double kReach = 0.12;
-constexpr double kSampleSpacing_px = 2;
+constexpr double kSampleSpacingPx = 2;
 constexpr size_t kFewestSamples = 60;
 constexpr size_t kMostSamples = 1500;
 
@@ -46,7 +46,7 @@ struct EdgeSample {
 
 EdgeFit::EdgeFit(const Image8& grey8) {
   const double scale =
-      std::min(1.0, static_cast<double>(kLongSide_px) / std::max(grey8.width, grey8.height));
+      std::min(1.0, static_cast<double>(kLongSidePx) / std::max(grey8.width, grey8.height));
   width_ = std::max(1, static_cast<int>(std::lround(grey8.width * scale)));
   height_ = std::max(1, static_cast<int>(std::lround(grey8.height * scale)));
   const std::vector<float> grey = Reduced(grey8, width_, height_);
@@ -110,7 +110,7 @@ double EdgeFit::Score(const PolygonModel& model,
     const auto end = Project(small, span.end_in_world);
     if (!start || !end) continue;
     const Eigen::Vector2d along = *end - *start;
-    const int count = static_cast<int>(along.norm() / kSampleSpacing_px);
+    const int count = static_cast<int>(along.norm() / kSampleSpacingPx);
     if (count < 2) continue;
     // The normal's angle, modulo half a turn.
     const double angle = std::atan2(along.y(), along.x()) + std::numbers::pi / 2;

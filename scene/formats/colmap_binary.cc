@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "COLMAP's files are li
 // A file's numbers, one after the other, never beyond its end.
 class ByteReader {
  public:
-  explicit ByteReader(const fs::path& file) : file_(file), bytes_(ReadTextFile(file)) {}
+  explicit ByteReader(const fs::path& file) : file_(file), bytes_(ReadFileBytes(file)) {}
 
   template <typename T>
   T Read() {

@@ -221,7 +221,7 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::vector<std::string>* 
     if (!faults) throw error;
     faults->push_back(error.what());
   };
-  const Utf8Text utf8 = Utf8FromBytes(ReadTextFile(file));
+  const Utf8Text utf8 = Utf8FromBytes(ReadFileBytes(file));
   if (utf8.is_guessed) {
     warnings_.push_back(
         Error(file, "is not UTF-8; it is read as Windows-1252 (Latin-1), look at its names")

@@ -20,7 +20,7 @@ Eigen::Vector3d GltfFromWorld(const Eigen::Vector3d& point) {
 
 // Beyond this many metres from the origin, single precision is coarser than a tenth of a
 // millimetre; the whole model is then moved by its node.
-constexpr double kFarFromOrigin_m = 1000;
+constexpr double kFarFromOriginMetres = 1000;
 
 // The format requires the bounds of positions.
 void SetPositionBounds(const std::vector<float>& positions, tinygltf::Accessor& accessor) {
@@ -46,7 +46,7 @@ class GlbWriter {
     const double scale = MetresPerUnit(textured_.model.unit);
     const double farthest_m =
         scale * std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
-    if (farthest_m > kFarFromOrigin_m) {
+    if (farthest_m > kFarFromOriginMetres) {
       center_m_ = (scale * GltfFromWorld(bounds.Center())).array().round();
     }
 

@@ -75,9 +75,7 @@ Lens ReadLens(const std::filesystem::path& file) {
     }
     const std::optional<double> value = ParseNumber(value_word.text);
     if (!value || !std::isfinite(*value)) {
-      throw Error(file,
-                  value_word.line,
-                  key_name + ": " + Quote(value_word.text) + " is not a finite number");
+      throw Error(file, value_word.line, key_name + ": " + WhyNoNumber(value_word.text));
     }
     if (word.text.starts_with("sigma_") && *value < 0) {
       throw Error(file, value_word.line, key_name + ": a standard deviation must not be negative");

@@ -126,7 +126,7 @@ std::optional<fs::path> FindNamedFile(const fs::path& folder, const std::string&
   if (fs::is_regular_file(folder / name, error)) return folder / name;
   const bool has_drive = slashed.size() > 1 && slashed[1] == ':';
   if (!path.is_absolute() && !has_drive) {
-    if (const auto found = FindBelow(folder, path)) return found;
+    if (auto found = FindBelow(folder, path)) return found;
   }
   return FindBelow(folder, path.filename());
 }

@@ -37,6 +37,14 @@ class ObjReader {
     if (sigma_) ReadSigmaComment(*sigma_, file_, sigma_line_, reading_.model);
     ApplyFaceNumbers(face_numbers_, reading_.model);
     LeaveOutBadFaces();
+    if (num_free_forms_ > 0) {
+      reading_.warnings.push_back(
+          Error(file_,
+                std::to_string(num_free_forms_) +
+                    " free-form curves and surfaces are left out; export them as polygons to have "
+                    "them in the model")
+              .what());
+    }
     return std::move(reading_);
   }
 
@@ -85,7 +93,8 @@ class ObjReader {
     } else if (keyword == "mtllib") {
       reading_.libraries.emplace_back(lines_.rest());
     }
-    // Normals, smoothing groups, lines and curves tell nothing that is used here.
+    if (keyword == "curv" || keyword == "curv2" || keyword == "surf") ++num_free_forms_;
+    // Normals, smoothing groups and lines tell nothing that is used here.
   }
 
   double ReadCoordinate(const std::vector<std::string_view>& words, size_t index, int least) const {
@@ -94,7 +103,7 @@ class ObjReader {
            " at least");
     }
     const std::optional<double> value = ParseNumber(words[index]);
-    if (!value || !std::isfinite(*value)) Fail(Quote(words[index]) + " is not a finite number");
+    if (!value || !std::isfinite(*value)) Fail(WhyNoNumber(words[index]));
     return *value;
   }
 
@@ -204,6 +213,7 @@ class ObjReader {
   std::string face_numbers_;
   std::optional<std::string> sigma_;
   int sigma_line_ = 0;
+  int num_free_forms_ = 0;
   // Of faces, by place, the first word that can be no index.
   std::map<int, std::string> bad_words_;
   std::map<int, std::string> bad_texture_words_;

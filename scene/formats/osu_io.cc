@@ -124,9 +124,8 @@ class WordReader {
   double ReadNumber(const std::string& what) {
     const TextToken& word = Next(what);
     const std::optional<double> value = ParseNumber(word.text);
-    if (!value) throw Error(name_, word.line, what + ": " + Quote(word.text) + " is not a number");
-    if (!std::isfinite(*value)) {
-      throw Error(name_, word.line, what + ": " + Quote(word.text) + " is not a finite number");
+    if (!value || !std::isfinite(*value)) {
+      throw Error(name_, word.line, what + ": " + WhyNoNumber(word.text));
     }
     return *value;
   }

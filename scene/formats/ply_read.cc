@@ -66,7 +66,7 @@ class PlyNumbers {
     const std::string_view word = words_.Next();
     if (word.empty()) Fail("the file ends where " + what + " is expected");
     const auto value = ParseNumber(word);
-    if (!value) Fail(what + ": " + Quote(word) + " is not a number");
+    if (!value) Fail(what + ": " + WhyNoNumber(word));
     return *value;
   }
 
@@ -305,7 +305,7 @@ class PlyReader {
 }  // namespace
 
 MeshReading ReadPly(const std::filesystem::path& file) {
-  const std::string bytes = ReadTextFile(file);
+  const std::string bytes = ReadFileBytes(file);
   MeshReading reading = PlyReader(bytes, file).Read();
   JoinIdenticalPoints(reading.textured.model);
   return reading;

@@ -159,7 +159,7 @@ void ReadBinary(std::string_view bytes,
 }  // namespace
 
 MeshReading ReadStl(const std::filesystem::path& file) {
-  const std::string bytes = ReadTextFile(file);
+  const std::string bytes = ReadFileBytes(file);
   MeshReading reading;
   PolygonModel& model = reading.textured.model;
   model.is_unit_assumed = true;

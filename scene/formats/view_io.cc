@@ -3,6 +3,7 @@
 #include "scene/formats/view_io.h"
 
 #include "scene/error.h"
+#include "scene/formats/text_encoding.h"
 #include "scene/formats/view_pairs.h"
 #include "scene/text.h"
 
@@ -13,7 +14,7 @@
 
 namespace groundglass {
 
-std::string ReadTextFile(const std::filesystem::path& file) {
+std::string ReadFileBytes(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
     throw Error(file, "this is a folder; expected a text file");
@@ -26,6 +27,12 @@ std::string ReadTextFile(const std::filesystem::path& file) {
     throw Error(file, "cannot read this file");
   }
   return std::move(bytes).str();
+}
+
+std::string ReadTextFile(const std::filesystem::path& file) {
+  std::string bytes = ReadFileBytes(file);
+  const bool is_utf16 = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
+  return is_utf16 ? Utf8FromBytes(bytes).text : bytes;
 }
 
 ViewTag ParseView(const std::string& text, const std::filesystem::path& name) {

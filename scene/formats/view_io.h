@@ -30,7 +30,10 @@ std::string FormatCorrectedView(const std::string& measured_text,
                                 const ViewTag& corrected,
                                 const TagDeviations& deviations);
 
-// Reads a whole text file; Error if it cannot be opened.
+// Reads a whole file; Error if it cannot be opened.
+std::string ReadFileBytes(const std::filesystem::path& file);
+// The same for text: UTF-16 with its mark, as Windows' Notepad saves "Unicode", becomes UTF-8; any
+// other bytes stay as they are.
 std::string ReadTextFile(const std::filesystem::path& file);
 
 }  // namespace groundglass

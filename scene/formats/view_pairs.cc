@@ -18,6 +18,19 @@ bool IsKey(std::string_view name) {
   return FindTagKey(name) || FindSigmaKey(name) != nullptr || name == kCameraKey;
 }
 
+// As comments begin elsewhere.
+bool IsOtherComment(std::string_view word) {
+  return word.starts_with('#') || word.starts_with("//") || word.starts_with(';');
+}
+
+// What was most likely meant by a word that is no key.
+std::string HintAtKey(std::string_view word) {
+  if (IsOtherComment(word)) return "a comment begins with %";
+  const std::string key = LowerCase(word.substr(0, word.find_first_of(":=")));
+  if (IsKey(key)) return "write '" + key + "', a blank and its value";
+  return "the keys are x y z i j k a v roll shift_x shift_y k1 k2 k3 p1 p2 sigma_... camera";
+}
+
 // The number that follows a sign which stands by itself, as in `y - 74.9`; empty if none does.
 std::string_view NumberAfterSign(const std::vector<TextToken>& tokens, size_t sign) {
   const std::string_view text = tokens[sign].text;
@@ -66,11 +79,12 @@ class ViewPairReader {
     const bool is_last = next_ == tokens_.size();
     const bool has_value = !is_last && !IsKey(tokens_[next_].text);
     if (!IsKey(key.text)) {
-      Fail(key.line,
-           "unknown key " + Quote(key.text) +
-               "; the keys are x y z i j k a v roll shift_x shift_y k1 k2 k3 p1 p2 sigma_... "
-               "camera");
-      if (has_value) ++next_;
+      Fail(key.line, "unknown key " + Quote(key.text) + "; " + HintAtKey(key.text));
+      if (IsOtherComment(key.text)) {
+        while (next_ < tokens_.size() && tokens_[next_].line == key.line) ++next_;
+      } else if (has_value) {
+        ++next_;
+      }
       return std::nullopt;
     }
     // A camera may be called like a key.
@@ -111,10 +125,8 @@ class ViewPairReader {
     }
     const std::string key_name = "key " + Quote(pair.key.text);
     const std::optional<double> value = ParseNumber(word);
-    if (!value) {
-      Fail(pair.value.line, key_name + ": " + Quote(word) + " is not a number");
-    } else if (!std::isfinite(*value)) {
-      Fail(pair.value.line, key_name + ": " + Quote(word) + " is not a finite number");
+    if (!value || !std::isfinite(*value)) {
+      Fail(pair.value.line, key_name + ": " + WhyNoNumber(word));
     } else if (FindSigmaKey(pair.key.text) != nullptr && !(*value > 0)) {
       Fail(pair.value.line, key_name + ": a standard deviation must be above 0");
     } else {

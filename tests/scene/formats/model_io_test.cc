@@ -97,13 +97,25 @@ TEST(Obj, BadOnesGiveOneLine) {
     return ThrownMessage([&] { ReadModel(folder.Write("m.obj", text)); });
   };
   EXPECT_THAT(message("v 0 0\n"), HasSubstr("m.obj:1: expected 3 numbers at least"));
-  EXPECT_THAT(message("v 0 0 x\n"), HasSubstr("m.obj:1: 'x' is not a finite number"));
+  EXPECT_THAT(message("v 0 0 x\n"), HasSubstr("m.obj:1: 'x' is not a number"));
+  EXPECT_THAT(message("v 0 0 1,5\n"),
+              HasSubstr("m.obj:1: '1,5' is not a number; write 1.5, with a point"));
   EXPECT_THAT(message("v 0 0 0\nf 1 2 3\n"), HasSubstr("m.obj:2: point 2 is outside 1 to 1"));
   EXPECT_THAT(message("v 0 0 0\nf 0 1 1\n"), HasSubstr("m.obj:2: point 0 is outside 1 to 1"));
   EXPECT_THAT(message("v 0 0 0\nf a b c\n"),
               HasSubstr("m.obj:2: 'a' is not the number of a point"));
   EXPECT_THAT(message("# none\n"), HasSubstr("m.obj: this model has no faces"));
   EXPECT_THAT(message("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), HasSubstr("face 1 has no area"));
+}
+
+TEST(Obj, TellsThatFreeFormSurfacesAreLeftOut) {
+  const TemporaryFolder folder;
+  const ModelReading reading =
+      ReadModel(folder.Write("m.obj",
+                             "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"
+                             "cstype bezier\ndeg 2\ncurv 0 1 1 2 3\nend\n"));
+  EXPECT_THAT(reading.warnings,
+              ElementsAre(HasSubstr("m.obj: 1 free-form curves and surfaces are left out")));
 }
 
 TEST(Obj, LeavesSliversOutWithAWarning) {
@@ -168,7 +180,7 @@ TEST(ReadModel, BadMeshesGiveOneLine) {
   EXPECT_THAT(message("m.stl", binary), HasSubstr("m.stl: cannot read this model"));
   EXPECT_THAT(message("m.glb", "glTF rubbish"), HasSubstr("m.glb: cannot read this glTF model"));
   EXPECT_THAT(message("m.gltf", "{}"), HasSubstr("m.gltf: cannot read this glTF model"));
-  EXPECT_THAT(message("m.xyz", ""), HasSubstr("expected .osu, .obj, .ply, .stl or .glb"));
+  EXPECT_THAT(message("m.xyz", ""), HasSubstr("this kind of model is not read; export it as .glb"));
   EXPECT_EQ(ThrownMessage([] { ReadModel("none.ply"); }), "none.ply: no such model file");
   EXPECT_EQ(ThrownMessage([] { ReadModel("none.glb"); }), "none.glb: no such model file");
 }

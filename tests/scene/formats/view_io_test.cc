@@ -83,7 +83,21 @@ INSTANTIATE_TEST_SUITE_P(
         BadView{"x 3", "views/s5.view:12: key 'x' is repeated; it stands on line 4 already"},
         BadView{"=x 1 y 2 z 3 i 4 j 5 k 6 a 1.5", "views/s5.view: key 'v' is missing"},
         BadView{"=", "views/s5.view: key 'x' is missing"},
-        BadView{"roll 2,5", "views/s5.view:12: key 'roll': '2,5' is not a number"},
+        BadView{"roll 2,5",
+                "views/s5.view:12: key 'roll': '2,5' is not a number; write 2.5, with a point"},
+        BadView{"roll \u22122.5",
+                "views/s5.view:12: key 'roll': '\u22122.5' is not a number, for its minus is a "
+                "dash; write -2.5"},
+        BadView{"roll 2.5deg",
+                "views/s5.view:12: key 'roll': '2.5deg' is not a number; write 2.5 alone, without "
+                "'deg'"},
+        BadView{"ROLL 2",
+                "views/s5.view:12: unknown key 'ROLL'; write 'roll', a blank and its value"},
+        BadView{"roll: 2",
+                "views/s5.view:12: unknown key 'roll:'; write 'roll', a blank and its value"},
+        BadView{"roll=2",
+                "views/s5.view:12: unknown key 'roll=2'; write 'roll', a blank and its value"},
+        BadView{"# from the 2nd x", "views/s5.view:12: unknown key '#'; a comment begins with %"},
         BadView{"roll two", "views/s5.view:12: key 'roll': 'two' is not a number"},
         BadView{"roll 0x10", "views/s5.view:12: key 'roll': '0x10' is not a number"},
         BadView{"roll nan", "views/s5.view:12: key 'roll': 'nan' is not a finite number"},
@@ -121,6 +135,14 @@ TEST(FindViewFaults, ABlankAfterTheSignIsOneFault) {
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0],
             "s.view:2: key 'y': a blank stands between the sign and the number; write -74.9");
+}
+
+TEST(ReadView, ReadsWhatNotepadSavesAsUnicode) {
+  const TemporaryFolder folder;
+  std::string utf16 = "\xFF\xFE";
+  for (const char* c = kThesisFile; *c != 0; ++c) utf16 += {*c, '\0'};
+  EXPECT_EQ(FormatView(ReadView(folder.Write("s5.view", utf16))),
+            FormatView(ParseView(kThesisFile, "s5.view")));
 }
 
 TEST(ReadView, NamesAMissingFile) {
