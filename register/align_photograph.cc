@@ -4,6 +4,7 @@
 
 #include "register/fill_registration.h"
 #include "register/keep_stages.h"
+#include "register/shared_conflict.h"
 #include "scene/error.h"
 #include "scene/reduce.h"
 
@@ -85,7 +86,7 @@ AlignedPhotograph Align(const TagReading& reading,
                         const CameraPrior& written,
                         const std::shared_ptr<const TiePicture>& picture,
                         const EdgeEvidence& evidence,
-                        double scale,
+                        const WorkingSize& size,
                         const RegisterOptions& options) {
   const Refinement& refined = solution.refinement;
   const ParameterProjection projection = reading.prior.ProjectionAt(refined.whitened);
@@ -104,14 +105,20 @@ AlignedPhotograph Align(const TagReading& reading,
                                        options.joint.matching);
   aligned.whitened = refined.whitened;
   aligned.noise_px = refined.noise_px;
-  aligned.score_samples = FindScoreSamples(
-      refined.samples, projection, evidence, options.joint.start_range_px, options.solutions.score);
+  const auto score_samples = [&](double spare_px) {
+    return FindScoreSamples(
+        refined.samples, projection, evidence, spare_px, options.solutions.score);
+  };
+  aligned.width_px = size.width_px;
+  aligned.score_samples = score_samples(options.joint.start_range_px);
+  aligned.conflict_samples = score_samples(options.joint.start_range_px +
+                                           ConflictReachPx(size.width_px, options.conflict));
   if (rival.solution != nullptr) {
     aligned.second_best_nats = rival.total_score;
     aligned.second_best_whitened = reading.prior.WhitenedAt(
         rival.reading->prior.ParametersAt(rival.solution->refinement.whitened));
   }
-  aligned.second_best_distance_px = rival.distance_px / scale;
+  aligned.second_best_distance_px = rival.distance_px / size.scale;
   return aligned;
 }
 
@@ -202,9 +209,10 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   const auto tie_picture =
       std::make_shared<const TiePicture>(picture.grey8, picture.ignore, options.ties.num_levels);
   const auto align = [&](const TagReading& of, const Solution& solution, const Rival& elsewhere) {
-    return Align(of, solution, elsewhere, written, tie_picture, evidence, size.scale, options);
+    return Align(of, solution, elsewhere, written, tie_picture, evidence, size, options);
   };
   alignment.aligned = align(reading, best, rival);
+  alignment.conflict = FindConflictOf(alignment.aligned, edge_model, options);
   if (registration.verdict == Verdict::kReview && rival.solution != nullptr) {
     const double best_as_rival =
         best.TotalScore() + reading.log_probability - rival.reading->log_probability;

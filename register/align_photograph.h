@@ -35,6 +35,9 @@ struct PhotographAlignment {
   std::optional<AlignedPhotograph> second_best = {};
   // Whether edges alone tell its camera from all others, with its tag as it was written.
   bool is_clear = false;
+  // Between the parts of the model's drawing, at the camera that was found last, in pixels of the
+  // picture in which it was registered.
+  std::optional<EdgeConflict> conflict = {};
   // Why options.keep_folder does not have what it should; empty if it has.
   std::string keep_fault = {};
 };

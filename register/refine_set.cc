@@ -4,6 +4,7 @@
 
 #include "register/fill_registration.h"
 #include "register/keep_joint.h"
+#include "register/shared_conflict.h"
 #include "register/ties/find_ties.h"
 #include "scene/error.h"
 
@@ -271,6 +272,7 @@ void JudgeMember(size_t i,
                  registration);
   registration.undetermined =
       FindUndetermined(registration.sigmas, photograph.written, options.verdict);
+  set.alignments[i]->conflict = FindConflictOf(photograph, edge_model, options);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "register/add_tracks.h"
 #include "register/notebook_overclaim.h"
 #include "register/refine_set.h"
+#include "register/shared_conflict.h"
 #include "scene/error.h"
 #include "scene/formats/ignore_mask.h"
 #include "scene/formats/image_io.h"
@@ -153,6 +154,7 @@ RegisteredScene RegisterScene(const Scene& scene,
     }
     RefineWhatIsShared(edge_model, options, progress, alignments, registered);
   }
+  JudgeSharedConflict(options.conflict, alignments);
   for (PhotographAlignment& alignment : alignments) {
     FinishVerdict(options, alignment);
     if (!alignment.keep_fault.empty()) registered.warnings.push_back(alignment.keep_fault);

@@ -25,6 +25,7 @@
 //             picture
 //   search/   FindHypotheses            samples, evidence, prior -> starts over the whole prior
 //             ScoreAlignment            samples, evidence        -> how much speaks for a camera
+//             FindEdgeConflict          samples, a camera        -> parts that want another camera
 //   refine/   RefinePhotograph          a start                  -> the best camera near it
 //             FindSolutions, FindSecondBest  the three above          -> solutions, best first
 //   ties/     MatchWithColmap           pictures, pairs of them  -> keypoints that match (if asked)

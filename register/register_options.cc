@@ -17,6 +17,7 @@ void RegisterOptions::Check() const {
   tie_support.Check(path + "tie_support.");
   joint.Check(path + "joint.");
   model_errors.Check(path + "model_errors.");
+  conflict.Check(path + "conflict.");
   verdict.Check(path + "verdict.");
   overrule.Check();
   CheckFromTo(num_tie_rounds, 1, 100, path + "num_tie_rounds");

@@ -8,6 +8,7 @@
 #include "register/joint/model_errors.h"
 #include "register/refine/find_solutions.h"
 #include "register/refine/tag_readings.h"
+#include "register/search/edge_conflict.h"
 #include "register/ties/colmap_matches.h"
 #include "register/ties/tie_support.h"
 #include "register/verdict/overrule.h"
@@ -40,6 +41,7 @@ struct RegisterOptions {
   TieSupportOptions tie_support;
   JointOptions joint;
   ModelErrorOptions model_errors;
+  ConflictOptions conflict;
   VerdictOptions verdict;
   OverruleOptions overrule;  // whose verdicts a person decides
 

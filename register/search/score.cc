@@ -110,10 +110,11 @@ std::vector<ScoreSample> FindScoreSamples(const std::vector<EdgeSample>& samples
   return found;
 }
 
-AlignmentScore ScoreFromSamples(const std::vector<ScoreSample>& samples,
-                                const ParameterProjection& projection,
-                                const ScoreOptions& options) {
-  AlignmentScore score;
+std::vector<EdgeScore> ScoreEdges(const std::vector<ScoreSample>& samples,
+                                  const ParameterProjection& projection,
+                                  double offset_px,
+                                  const ScoreOptions& options) {
+  std::vector<EdgeScore> scores;
   std::vector<SeenSample> seen;
   for (size_t start = 0; start < samples.size();) {
     size_t end = start;
@@ -121,27 +122,40 @@ AlignmentScore ScoreFromSamples(const std::vector<ScoreSample>& samples,
     double crowd[2] = {0, 0};
     double width_px = 0;  // in which they were counted
     seen.clear();
+    AlignmentScore score;
     for (; end < samples.size() && samples[end].edge == samples[start].edge; ++end) {
       const ScoreSample& sample = samples[end];
       const auto image_px = projection.ImageOf(sample.point_in_world);
       if (!image_px) continue;
-      const double offset_px = sample.normal.dot(*image_px - sample.origin_px);
-      seen.push_back({&sample, offset_px});
+      const double seen_px = sample.normal.dot(*image_px - sample.origin_px) + offset_px;
+      seen.push_back({&sample, seen_px});
       width_px += 2 * sample.range_px;
       score.observations += sample.observations;
       for (const EdgeCandidate& candidate : sample.candidates) {
-        if (std::abs(candidate.offset_px - offset_px) > sample.range_px) continue;
+        if (std::abs(candidate.offset_px - seen_px) > sample.range_px) continue;
         crowd[candidate.strength > 0 ? 1 : 0] += 1;
       }
     }
     if (!seen.empty()) {
       // Half a candidate more than was counted, so that an empty place is not a certain one.
-      score.nats += std::max(NatsOfEdge(false, (crowd[0] + 0.5) / width_px, seen, options),
-                             NatsOfEdge(true, (crowd[1] + 0.5) / width_px, seen, options));
+      score.nats = std::max(NatsOfEdge(false, (crowd[0] + 0.5) / width_px, seen, options),
+                            NatsOfEdge(true, (crowd[1] + 0.5) / width_px, seen, options));
+      scores.push_back({samples[start].edge, samples[start].normal, score});
     }
     start = end;
   }
-  return score;
+  return scores;
+}
+
+AlignmentScore ScoreFromSamples(const std::vector<ScoreSample>& samples,
+                                const ParameterProjection& projection,
+                                const ScoreOptions& options) {
+  AlignmentScore sum;
+  for (const EdgeScore& edge : ScoreEdges(samples, projection, 0, options)) {
+    sum.nats += edge.score.nats;
+    sum.observations += edge.score.observations;
+  }
+  return sum;
 }
 
 AlignmentScore ScoreAlignment(const std::vector<EdgeSample>& samples,

@@ -59,7 +59,19 @@ std::vector<ScoreSample> FindScoreSamples(const std::vector<EdgeSample>& samples
                                           const EdgeEvidence& evidence,
                                           double spare_px,
                                           const ScoreOptions& options);
-// The same score; samples sorted by edge.
+// What one edge says for a camera.
+struct EdgeScore {
+  int edge = -1;
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  // of its first sample
+  AlignmentScore score;
+};
+// The score edge by edge, if each were shown offset_px, along its samples' normals, from where the
+// camera sees it. Samples sorted by edge.
+std::vector<EdgeScore> ScoreEdges(const std::vector<ScoreSample>& samples,
+                                  const ParameterProjection& projection,
+                                  double offset_px,
+                                  const ScoreOptions& options);
+// Their sum where the camera sees them: the same score as ScoreAlignment.
 AlignmentScore ScoreFromSamples(const std::vector<ScoreSample>& samples,
                                 const ParameterProjection& projection,
                                 const ScoreOptions& options);

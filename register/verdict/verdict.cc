@@ -196,6 +196,19 @@ Judgement JudgeDisagreement() {
            "own edges say is given"}};
 }
 
+Judgement JudgeConflict(const EdgeConflict& conflict, int num_alike, int num_photographs) {
+  return {Verdict::kReview,
+          {fmt::format("{} fit better {:.1f} px from where the rest of the model puts them (by "
+                       "{:.0f} nats), and so in {} of {} photographs: one part of the model is "
+                       "misplaced against the other",
+                       conflict.is_of_coplanar_edges ? "windows and other lines within walls"
+                                                     : "the building's outlines and corners",
+                       conflict.distance_px,
+                       conflict.gain_nats,
+                       num_alike,
+                       num_photographs)}};
+}
+
 Judgement JudgePrecision(const Registration& registration, const VerdictOptions& options) {
   const double to_640 = 640.0 / registration.width_px;
   if (registration.vertex_sigma_px * to_640 <= options.max_vertex_sigma_px) return {};

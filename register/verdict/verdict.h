@@ -5,6 +5,7 @@
 #include "register/camera/camera_prior.h"
 #include "register/camera/control_points.h"
 #include "register/refine/refine_photograph.h"
+#include "register/search/edge_conflict.h"
 #include "register/search/score.h"
 #include "scene/length_unit.h"
 #include "scene/registration.h"
@@ -91,6 +92,10 @@ Judgement JudgeTag(const CameraParameters& parameters,
 
 // Review where the other photographs pull a camera away from what its own edges say.
 Judgement JudgeDisagreement();
+
+// Review where two parts of the model's drawing do not agree on the camera. conflict: in pixels of
+// the photograph; num_alike, num_photographs: how many of how many have one.
+Judgement JudgeConflict(const EdgeConflict& conflict, int num_alike, int num_photographs);
 
 // Precision: review where the model's points stay less certain than options.max_vertex_sigma_px.
 // The last to judge: other photographs may have made them certain.

@@ -27,6 +27,17 @@ TEST(JudgeFit, ASecondBestThatFitsAlmostAsWellIsReviewed) {
   EXPECT_EQ(JudgeFit({{400, 300}, 46, 7.5}, {}).verdict, Verdict::kAccepted);
 }
 
+TEST(JudgeConflict, PartsOfTheModelThatDisagreeAreReviewed) {
+  const Judgement judgement = JudgeConflict({false, 10.2, 86}, 4, 6);
+  EXPECT_EQ(judgement.verdict, Verdict::kReview);
+  EXPECT_THAT(judgement.reasons,
+              ElementsAre("the building's outlines and corners fit better 10.2 px from where the "
+                          "rest of the model puts them (by 86 nats), and so in 4 of 6 photographs: "
+                          "one part of the model is misplaced against the other"));
+  EXPECT_THAT(JudgeConflict({true, 10.2, 86}, 4, 6).reasons,
+              ElementsAre(HasSubstr("windows and other lines within walls fit better 10.2 px")));
+}
+
 TEST(JudgeFit, NoBetterThanChanceIsRejected) {
   EXPECT_EQ(JudgeFit({{-3, 300}, std::nullopt, 0}, {}).verdict, Verdict::kRejected);
   EXPECT_EQ(JudgeFit({{30, 300}, std::nullopt, 0}, {}).verdict, Verdict::kReview);
