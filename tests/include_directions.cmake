@@ -10,15 +10,16 @@ cmake_minimum_required(VERSION 3.25)
 set(may_include_scene)
 set(may_include_calibrate scene)
 set(may_include_register scene)
+set(may_include_ask scene register)
 set(may_include_invrender scene)
 set(may_include_viewer scene)
 set(may_include_report scene)
 set(may_include_pipeline scene calibrate register invrender viewer report)
 set(may_include_datasets-synthetic scene)
 set(may_include_evaluate scene calibrate register invrender viewer datasets-synthetic)
-set(may_include_cli scene calibrate register invrender viewer report pipeline datasets-synthetic
-    evaluate)
-set(rooms scene calibrate register invrender viewer report pipeline datasets-synthetic evaluate cli)
+set(may_include_cli scene calibrate register ask invrender viewer report pipeline
+    datasets-synthetic evaluate)
+set(rooms scene calibrate register ask invrender viewer report pipeline datasets-synthetic evaluate cli)
 
 # The floors of a room, lowest first: a file includes its own floor and those before it; files that
 # stand in the room itself are above them all, but in scene, whose vocabulary all its formats speak.

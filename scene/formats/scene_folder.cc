@@ -48,6 +48,10 @@ SceneCheck CheckScene(const fs::path& folder, const SceneOptions& options) {
   return SceneReader(folder, options).Read().check;
 }
 
+SceneCheck ScanScene(const fs::path& folder, const SceneOptions& options) {
+  return SceneReader(folder, options).Read(false).check;
+}
+
 std::string ImageName(const Scene& scene, const Photograph& photograph) {
   return photograph.image_file.lexically_relative(scene.folder / "images").generic_string();
 }

@@ -17,6 +17,10 @@ Scene ReadScene(const std::filesystem::path& folder, const SceneOptions& options
 // The same, but collects every fault, of the scene and of its photographs, instead of stopping.
 SceneCheck CheckScene(const std::filesystem::path& folder, const SceneOptions& options = {});
 
+// The same, but no picture is decoded: quick with hundreds of photographs, and one that is damaged
+// behind a sound header is found only when it is looked at.
+SceneCheck ScanScene(const std::filesystem::path& folder, const SceneOptions& options = {});
+
 // A photograph's path below images/, as COLMAP names it: "north/0001.jpg".
 std::string ImageName(const Scene& scene, const Photograph& photograph);
 // The photograph of this name among those that can be used; null if there is none.

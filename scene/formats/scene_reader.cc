@@ -54,7 +54,7 @@ SceneReader::SceneReader(const fs::path& folder, const SceneOptions& options)
   result_.scene.folder = folder;
 }
 
-SceneReading SceneReader::Read() {
+SceneReading SceneReader::Read(bool decode_pictures) {
   std::error_code error;
   if (!fs::is_directory(folder_, error)) {
     Fault(Error(folder_, "no such scene folder").what());
@@ -66,7 +66,7 @@ SceneReading SceneReader::Read() {
   Match(images);
   AddMasks("masks", &Photograph::mask_file);
   AddMasks("faces", &Photograph::faces_file);
-  DecodeAll();
+  if (decode_pictures) DecodeAll();
   std::vector<std::string> stray_faults = SetUnreadableApart();
   return {std::move(result_), std::move(scene_faults_), std::move(stray_faults)};
 }

@@ -47,7 +47,8 @@ struct SceneReading {
 class SceneReader {
  public:
   SceneReader(const std::filesystem::path& folder, const SceneOptions& options);
-  SceneReading Read();
+  // decode_pictures: whether every pixel is read, so that damage is found now.
+  SceneReading Read(bool decode_pictures = true);
 
  private:
   // Of the scene as a whole.
