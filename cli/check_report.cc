@@ -97,6 +97,7 @@ std::string FormatCheckReport(const CheckReport& report, const ModelArguments& a
   const Scene& scene = report.check.scene;
   std::string text = FormatModelSummary(scene.model, arguments) + FormatCameraTable(scene);
   if (!text.empty()) text += "\n";
+  for (const std::string& note : scene.notes) text += "note: " + note + "\n";
   for (const std::string& fault : report.check.faults) text += "fault: " + fault + "\n";
   for (const std::string& warning : scene.warnings) text += "warning: " + warning + "\n";
   for (const Advice& advice : report.oddities) text += "warning: " + FormatAdvice(advice) + "\n";
@@ -116,6 +117,7 @@ std::string FormatCheckReportJson(const CheckReport& report, const ModelArgument
   std::vector<std::string> warnings = scene.warnings;
   for (const Advice& advice : report.oddities) warnings.push_back(FormatAdvice(advice));
   json["warnings"] = warnings;
+  json["notes"] = scene.notes;
   json["oddities"] = Json::array();
   for (const Advice& advice : report.oddities) {
     json["oddities"].push_back(

@@ -160,6 +160,9 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
   options.only = arguments.only;
   options.exclude = not_needed;
   Scene scene = ReadScene(arguments.scene_folder, options);
+  if (!common.quiet) {
+    for (const std::string& note : scene.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  }
   if (!arguments.model_file) {
     const auto others = DescribeOtherModels(scene.folder, scene.model_file);
     if (others) scene.warnings.push_back(*others);

@@ -31,6 +31,7 @@ void AddRegistrationFiles(const Scene& scene, const Photograph& photograph, Stag
   AddFile(scene, photograph.image_file, inputs);
   if (!photograph.view_file.empty()) AddFile(scene, photograph.view_file, inputs);
   if (photograph.mask_file) AddFile(scene, *photograph.mask_file, inputs);
+  if (photograph.calibration_file) AddFile(scene, *photograph.calibration_file, inputs);
 }
 
 }  // namespace
@@ -46,6 +47,7 @@ StageInputs ReadRegistrationInputs(const Scene& scene, const OptionTexts& option
   StageInputs inputs = ReadStageOptions(options);
   AddFile(scene, scene.model_file, inputs);
   for (const fs::path& file : scene.camera_files) AddFile(scene, file, inputs);
+  for (const fs::path& file : scene.lens_files) AddFile(scene, file, inputs);
   for (const Photograph& photograph : scene.photographs) {
     AddRegistrationFiles(scene, photograph, inputs);
   }

@@ -61,14 +61,25 @@ std::vector<NamedTag> OtherTags(const Scene& scene, const Photograph& photograph
   return others;
 }
 
+// The lens that serves a photograph: the one given, if it is of all cameras or of the tag's; else
+// what the scene's folder has for it.
+std::optional<Lens> LensOf(const Photograph& photograph, const std::optional<Lens>& given) {
+  if (given && (given->name.empty() || given->name == photograph.tag.camera)) return given;
+  return photograph.lens;
+}
+
 // One photograph that spoils its own alignment is news about it, and no end of the others' work.
 PhotographAlignment AlignOrSayWhyNot(const Scene& scene,
                                      const Photograph& photograph,
                                      const std::optional<Lens>& lens,
                                      const EdgeModel& edge_model,
                                      const RegisterOptions& options) {
-  PhotographInput input{
-      photograph.name, {}, {}, photograph.tag, lens, OtherTags(scene, photograph)};
+  PhotographInput input{photograph.name,
+                        {},
+                        {},
+                        photograph.tag,
+                        LensOf(photograph, lens),
+                        OtherTags(scene, photograph)};
   try {
     input.grey8 = ReadGrey8(photograph.image_file);
     if (photograph.mask_file) input.ignore = ReadIgnoreMask(*photograph.mask_file, photograph.size);

@@ -26,7 +26,7 @@ void WriteRegistrationOutput(const Scene& scene,
     WriteFileAtomically(
         out / "views" / (registration.name + ".view"),
         registration.verdict == Verdict::kRejected
-            ? measured_text
+            ? FormatCorrectedView(measured_text, registration.measured, {})
             : FormatCorrectedView(measured_text, registration.corrected, deviations));
     cameras.push_back({ImageName(scene, photograph), registration.CorrectedCamera()});
   }

@@ -33,6 +33,7 @@ mustache::data PageData(const ReportInput& input) {
   page["model_errors"] = ModelErrorsData(input);
   page["photographs"] = PhotographsData(input);
   page["warnings"] = WarningsData(input);
+  page["notes"] = NotesData(input);
   page["made_by"] = MadeByData(input);
   return page;
 }

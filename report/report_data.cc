@@ -123,6 +123,11 @@ mustache::data WarningsData(const ReportInput& input) {
   return {"list", TextListData(input.scene->warnings)};
 }
 
+mustache::data NotesData(const ReportInput& input) {
+  if (!input.scene || input.scene->notes.empty()) return false;
+  return {"list", TextListData(input.scene->notes)};
+}
+
 mustache::data MadeByData(const ReportInput& input) {
   if (!input.manifest) return false;
   mustache::data data;

@@ -29,6 +29,7 @@ kainjow::mustache::data ModelErrorsData(const ReportInput& input);
 kainjow::mustache::data PhotographsData(const ReportInput& input);
 // What was odd about the scene.
 kainjow::mustache::data WarningsData(const ReportInput& input);
+kainjow::mustache::data NotesData(const ReportInput& input);
 // Of the footer: version and seed.
 kainjow::mustache::data MadeByData(const ReportInput& input);
 

@@ -75,7 +75,7 @@ set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI
     fmt kainjow nlohmann openssl tbb stb sys)
 set(owners_Eigen "\\.(h|cc)$")
 set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|report|datasets-synthetic|evaluate)/.*\\.cc$")
-set(owners_OpenImageIO "^(scene/formats/(image_(io|write|kind)|open_image|ignore_mask)|invrender/.*)\\.cc$")
+set(owners_OpenImageIO "^(scene/formats/(image_(io|write|kind)|open_image|ignore_mask|photograph_metadata)|invrender/.*)\\.cc$")
 set(owners_embree3 "^scene/visibility\\.cc$")
 set(owners_ceres "^(calibrate|register|invrender)/.*\\.cc$")
 set(owners_apriltag "^calibrate/.*\\.cc$")

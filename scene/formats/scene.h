@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/formats/image_io.h"
+#include "scene/formats/lens.h"
 #include "scene/formats/model_io.h"
 #include "scene/polygon_model.h"
 #include "scene/view_tag.h"
@@ -23,6 +24,9 @@ struct Photograph {
   std::filesystem::path view_file;                  // empty if the tag came from elsewhere
   std::optional<std::filesystem::path> mask_file;   // white = ignore
   std::optional<std::filesystem::path> faces_file;  // hand-painted face mask
+  // What calibration/ has of it, for the keys that its tag lacks (docs/scene-folder.md).
+  std::optional<std::filesystem::path> calibration_file;
+  std::optional<Lens> lens;  // in place of the tag's own where the tag says no view angle
 };
 
 // A photograph that is there and cannot be used: its picture is damaged, its tag says something
@@ -45,6 +49,10 @@ struct Scene {
   std::vector<std::string> left_out;  // names of photographs that the options leave out
   std::vector<std::filesystem::path> untagged_images;  // photographs that no tag is there for
   std::vector<std::string> warnings;  // a photograph without a tag, a tag without a photograph, ...
+  std::vector<std::filesystem::path> lens_files;  // of calibration/
+  // What the tags lack and was taken from calibration/ or from the pictures' metadata; one line
+  // each, for a person.
+  std::vector<std::string> notes;
 };
 
 struct SceneOptions {

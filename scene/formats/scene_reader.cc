@@ -63,7 +63,9 @@ SceneReading SceneReader::Read(bool decode_pictures) {
   ReadTheModel();
   const FilesByStem images = ListImages("images");
   ReadTags(images);
+  ReadCalibration();
   Match(images);
+  TellWhatWasTaken();
   AddMasks("masks", &Photograph::mask_file);
   AddMasks("faces", &Photograph::faces_file);
   if (decode_pictures) DecodeAll();
@@ -190,6 +192,9 @@ void SceneReader::Match(const FilesByStem& images) {
   }
   for (const auto& [name, file] : known_names_) {
     if (image_of_tag.count(name) > 0) continue;
+    if (const auto tag = tags_.find(name); tag != tags_.end() && tag->second.text) {
+      for (const std::string& fault : FindViewFaults(*tag->second.text, file)) FaultOf(name, fault);
+    }
     Warn(file,
          "tag of " + name + " without a photograph; expected images/" + name + " with " +
              kImageNames + NearestName(name, left));
@@ -204,13 +209,13 @@ void SceneReader::Match(const FilesByStem& images) {
     photograph.name = name;
     photograph.image_file = image->second;
     if (LowerCase(place.extension().string()) == ".view") photograph.view_file = place;
-    if (found != tags_.end()) photograph.tag = found->second.tag;
     try {
       photograph.size = ReadImageSize(image->second);
     } catch (const Error& error) {
       FaultOf(name, error.what());
       not_images_.insert(image->second);
     }
+    if (found != tags_.end()) CompleteTag(found->second, photograph);
     try {
       const std::vector<std::string> warnings = InspectImage(image->second).warnings;
       result_.scene.warnings.insert(result_.scene.warnings.end(), warnings.begin(), warnings.end());

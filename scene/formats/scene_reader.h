@@ -32,9 +32,14 @@ struct NaturalOrder {
 using FilesByStem = std::map<std::string, std::filesystem::path, NaturalOrder>;
 
 struct FoundTag {
-  ViewTag tag;
+  ViewTag tag;  // of cameras that are given whole; else `text` says it
   std::filesystem::path view_file;
+  std::optional<std::string> text;
 };
+
+// What is taken over from elsewhere, by what is said of it: "v from ..." and the photographs'
+// names.
+using NamesByNote = std::map<std::string, std::vector<std::string>>;
 
 // A scene and its faults, told apart by what they spoil.
 struct SceneReading {
@@ -78,6 +83,14 @@ class SceneReader {
   // The tags of a COLMAP model's cameras.
   void ReadGivenCameras(const ColmapFiles& files, const FilesByStem& images);
   void Match(const FilesByStem& images);
+  // calibration/: what is known of photographs and lenses besides the tags.
+  void ReadCalibration();
+  // The tag of a photograph from its view file's text, and what that lacks from calibration/ and
+  // from the picture's metadata; faults where nothing tells it.
+  void CompleteTag(const FoundTag& found, Photograph& photograph);
+  std::string WithLens(std::string text, Photograph& photograph);
+  std::string WithMetadata(std::string text, const Photograph& photograph, std::string& why_not);
+  void TellWhatWasTaken();
   void AddMasks(const char* subfolder, std::optional<std::filesystem::path> Photograph::*member);
   // The photograph that lies in images/ where a mask lies in masks/: north/0001.
   std::optional<size_t> FindByPlace(const std::filesystem::path& mask) const;
@@ -93,6 +106,9 @@ class SceneReader {
   std::map<std::string, std::vector<std::string>, NaturalOrder> faults_of_;  // by photograph
   std::set<std::filesystem::path> not_images_;  // whose header cannot be read
   std::map<std::string, FoundTag, NaturalOrder> tags_;
+  FilesByStem calibration_;   // its view files, by photograph
+  std::vector<Lens> lenses_;  // of calibration/
+  NamesByNote taken_;
   FilesByStem known_names_;             // every photograph that has a tag, readable or not
   std::string tags_place_;              // where a tag is expected, if not in views/
   std::filesystem::path cameras_file_;  // the COLMAP model that gave the tags, if one did

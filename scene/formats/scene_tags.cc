@@ -4,6 +4,7 @@
 #include "scene/formats/scene_reader.h"
 #include "scene/formats/tags_csv.h"
 #include "scene/formats/view_io.h"
+#include "scene/formats/view_pairs.h"
 
 #include <algorithm>
 
@@ -53,7 +54,7 @@ void SceneReader::ReadTags(const FilesByStem& images) {
     ReadTable(table, images);
   } else if (options_.views) {
     Fault(Error(*options_.views, kCamerasExpected).what());
-  } else {
+  } else if (!fs::is_directory(folder_ / "calibration", error)) {
     Fault(Error(folder_,
                 std::string("no tags; expected a folder views/ with .view files, or tags.csv. ") +
                     kHowToBegin)
@@ -71,9 +72,9 @@ void SceneReader::ReadViewFiles(const fs::path& views) {
     try {
       const std::string text = ReadTextFile(file);
       known_names_[name] = file;
-      const std::vector<std::string> faults = FindViewFaults(text, file);
+      const std::vector<std::string> faults = ReadSomePairs(text, file).faults;
       for (const std::string& fault : faults) FaultOf(name, fault);
-      if (faults.empty()) tags_[name] = {ParseView(text, file), file};
+      if (faults.empty()) tags_[name] = {{}, file, text};
     } catch (const Error& read_error) {
       known_names_[name] = file;
       FaultOf(name, read_error.what());
@@ -89,7 +90,8 @@ void SceneReader::ReadTable(const fs::path& table, const FilesByStem& images) {
     std::vector<std::string>& warnings = result_.scene.warnings;
     warnings.insert(warnings.end(), rows.warnings.begin(), rows.warnings.end());
     for (const TagRow& row : rows.rows) {
-      tags_[row.name] = {row.tag, {}};
+      tags_[row.name] = {row.tag, {}, {}};
+      if (!row.text.empty()) tags_[row.name].text = row.text;
       known_names_[row.name] = table;
     }
     for (const auto& [name, faults] : rows.row_faults) {
@@ -127,7 +129,7 @@ void SceneReader::ReadGivenCameras(const ColmapFiles& files, const FilesByStem& 
     const fs::path& image_file = images.at(names[index]);
     try {
       const FittedCamera fitted = FitCamera(camera.camera, ReadImageSize(image_file), image_file);
-      tags_[names[index]] = {TagForModel(fitted.camera, result_.scene.model), {}};
+      tags_[names[index]] = {TagForModel(fitted.camera, result_.scene.model), {}, {}};
       if (!fitted.change.empty()) names_of_change[fitted.change].push_back(names[index]);
     } catch (const Error& error) {
       FaultOf(names[index], error.what());

@@ -6,6 +6,7 @@
 #include "scene/formats/csv.h"
 #include "scene/formats/image_kind.h"
 #include "scene/formats/view_io.h"
+#include "scene/formats/view_pairs.h"
 #include "scene/frames.h"
 #include "scene/text.h"
 
@@ -69,6 +70,9 @@ class TableReader {
   }
 
   bool Has(const std::string& column) const { return columns_.count(column) > 0; }
+  bool HasField(const std::vector<std::string>& fields, const std::string& column) const {
+    return Has(column) && !fields[columns_.at(column)].empty();
+  }
 
   bool ReadHeader(int line, const std::vector<std::string>& names) {
     const size_t faults_before = table_.faults.size();
@@ -188,13 +192,21 @@ class TableReader {
       view_text += FormatPoint("i", "j", "k", position + distance * axis);
     }
     if (!is_sound) return;
+    const bool is_whole = HasField(fields, "a") && HasField(fields, "v");
     // The view file's own checks; its line 1 is this row.
-    for (const std::string& fault : FindViewFaults(view_text, "")) {
+    const std::vector<std::string> faults =
+        is_whole ? FindViewFaults(view_text, "") : ReadSomePairs(view_text, "").faults;
+    for (const std::string& fault : faults) {
       const size_t colon = fault.find(": ");
       fail(fault.substr(colon + 2));
       is_sound = false;
     }
-    if (is_sound) row.tag = ParseView(view_text, file_);
+    if (!is_sound) return;
+    if (is_whole) {
+      row.tag = ParseView(view_text, file_);
+    } else {
+      row.text = view_text;
+    }
   }
 
   static std::string FormatPoint(const char* x,

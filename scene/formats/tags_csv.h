@@ -18,6 +18,8 @@ struct TagRow {
   std::string name;
   int line = 0;
   ViewTag tag;
+  std::string text;  // the same as a view file's, where `a` or `v` is empty: the picture's metadata
+                     // may tell
 };
 
 // What could be read of a tags.csv, and one line for each fault.

@@ -137,9 +137,10 @@ std::string FormatNewKeys(const ViewReading& reading,
                           const TagDeviations& deviations,
                           const std::string& line_break) {
   std::string text;
-  for (int index = kNumRequiredKeys; index < kNumTagKeys; ++index) {
+  for (int index = 0; index < kNumTagKeys; ++index) {
     const double value = GetTagValue(corrected, static_cast<TagKey>(index));
-    if (value == 0 || FindPair(reading.pairs, kTagKeyNames[index]) != nullptr) continue;
+    const bool is_needed = index < kNumRequiredKeys || value != 0;
+    if (!is_needed || FindPair(reading.pairs, kTagKeyNames[index]) != nullptr) continue;
     text += std::string(kTagKeyNames[index]) + " " + FormatNumber(value) + " % " +
             FormatNote("", "", deviations[index]) + line_break;
   }
@@ -159,7 +160,7 @@ std::string FormatNewKeys(const ViewReading& reading,
 std::string FormatCorrectedView(const std::string& measured_text,
                                 const ViewTag& corrected,
                                 const TagDeviations& deviations) {
-  const ViewReading reading = ReadPairs(measured_text, "view");
+  const ViewReading reading = ReadSomePairs(measured_text, "view");
   if (!reading.faults.empty()) throw Error(reading.faults.front());
   std::vector<Edit> edits;
   for (const TextLine& line : reading.lines) {

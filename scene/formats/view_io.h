@@ -25,7 +25,7 @@ std::string FormatView(const ViewTag& tag, const std::string& comment = "");
 // "(measured 232, now +-0.03)". Parsing the result gives `corrected` to the last bit.
 // deviations: one standard deviation of each corrected number, 0 where unknown. A file that was
 // corrected before keeps its first measured value. Sigmas and the camera's name are of the
-// measurement: where `corrected` has none, the text's stay.
+// measurement: where `corrected` has none, the text's stay. The text need not have every key.
 std::string FormatCorrectedView(const std::string& measured_text,
                                 const ViewTag& corrected,
                                 const TagDeviations& deviations);

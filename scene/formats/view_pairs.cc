@@ -60,17 +60,27 @@ class ViewPairReader {
   }
 
   ViewReading Read() {
-    while (next_ < tokens_.size()) {
-      if (const std::optional<KeyValue> pair = NextPair()) TakeValue(*pair);
-    }
-    RequireValues();
+    ReadValues();
+    RequireKeys();
     if (reading_.faults.empty()) RequireCamera();
+    return std::move(reading_);
+  }
+
+  ViewReading ReadSome() {
+    ReadValues();
     return std::move(reading_);
   }
 
  private:
   void Fail(int line, const std::string& message) {
     reading_.faults.push_back(Error(name_, line, message).what());
+  }
+
+  void ReadValues() {
+    while (next_ < tokens_.size()) {
+      if (const std::optional<KeyValue> pair = NextPair()) TakeValue(*pair);
+    }
+    RequireFilledIn();
   }
 
   // Nothing, and a fault, for one that cannot be used.
@@ -134,12 +144,13 @@ class ViewPairReader {
     }
   }
 
-  void RequireValues() {
-    if (!to_fill_in_.empty()) {
-      Fail(
-          first_to_fill_in_,
-          "this template is not filled in yet: write a number in place of the ? of " + to_fill_in_);
-    }
+  void RequireFilledIn() {
+    if (to_fill_in_.empty()) return;
+    Fail(first_to_fill_in_,
+         "this template is not filled in yet: write a number in place of the ? of " + to_fill_in_);
+  }
+
+  void RequireKeys() {
     for (int index = 0; index < kNumRequiredKeys; ++index) {
       if (FindPair(reading_.pairs, kTagKeyNames[index]) == nullptr) {
         reading_.faults.push_back(
@@ -186,6 +197,10 @@ const KeyValue* FindPair(const std::vector<KeyValue>& pairs, std::string_view ke
 
 ViewReading ReadPairs(const std::string& text, const std::filesystem::path& name) {
   return ViewPairReader(text, name).Read();
+}
+
+ViewReading ReadSomePairs(const std::string& text, const std::filesystem::path& name) {
+  return ViewPairReader(text, name).ReadSome();
 }
 
 }  // namespace groundglass

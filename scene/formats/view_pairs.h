@@ -39,5 +39,7 @@ struct ViewReading {
 // Reads everything that it can; lines and pairs point into the text. `name` stands for the file in
 // faults.
 ViewReading ReadPairs(const std::string& text, const std::filesystem::path& name);
+// The same of a file that need not have all the keys that make a camera.
+ViewReading ReadSomePairs(const std::string& text, const std::filesystem::path& name);
 
 }  // namespace groundglass

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/formats/metadata_lens.h"
+
+#include "scene/check_option.h"
+#include "scene/error.h"
+#include "scene/frames.h"
+#include "scene/text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+// Half the diagonal of 36 mm x 24 mm, twice.
+const double kDiagonal35mm = std::hypot(36.0, 24.0);
+// A whole number that stands for any within half of it, one standard deviation.
+const double kRounding = 1 / std::sqrt(12.0);
+// Sides that differ by no more than this are the same shape: whole pixels, and cameras' margins.
+constexpr double kSameShape = 0.01;
+
+std::string SidesOf(const ImageSize& size) {
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
+
+// The frame when it was taken, in pixels of the picture as it is now.
+struct WholeFrame {
+  double width_px = 0;
+  double height_px = 0;
+  std::string remark;  // if the picture is not the whole frame
+  bool is_known = true;
+};
+
+WholeFrame FindWholeFrame(const PhotographMetadata& metadata) {
+  const ImageSize& now = metadata.size;
+  WholeFrame frame{static_cast<double>(now.width), static_cast<double>(now.height), "", true};
+  if (!metadata.size_when_taken) return frame;
+  ImageSize taken = *metadata.size_when_taken;
+  const auto is_same_shape = [&](const ImageSize& other) {
+    return std::abs(static_cast<double>(other.width) * now.height / other.height / now.width - 1) <
+           kSameShape;
+  };
+  if (is_same_shape(taken)) return frame;
+  const ImageSize turned{taken.height, taken.width, 1};
+  if (is_same_shape(turned)) {
+    frame.remark = ", turned since it was taken";
+    return frame;
+  }
+  frame.remark = ", cropped since it was taken (" + SidesOf(taken) + ")";
+  if (taken.width == now.width || taken.height == now.height) {
+    frame.width_px = taken.width;
+    frame.height_px = taken.height;
+  } else if (turned.width == now.width || turned.height == now.height) {
+    frame.width_px = turned.width;
+    frame.height_px = turned.height;
+  } else {
+    frame.is_known = false;
+  }
+  frame.is_known = frame.is_known && frame.width_px >= now.width && frame.height_px >= now.height;
+  return frame;
+}
+
+// The focal length in pixels of the picture as it is, with its standard deviation as a share.
+struct FocalLength {
+  double px = 0;
+  double sigma_share = 0;
+  std::string how;
+};
+
+std::optional<FocalLength> FindFocalLength(const PhotographMetadata& metadata,
+                                           const WholeFrame& frame,
+                                           const MetadataLensOptions& options) {
+  const double longer_px = std::max(frame.width_px, frame.height_px);
+  if (metadata.focal_length_mm && options.sensor_width_mm) {
+    return FocalLength{*metadata.focal_length_mm / *options.sensor_width_mm * longer_px,
+                       options.focal_length_share,
+                       FormatNumber(*metadata.focal_length_mm) + " mm on a sensor " +
+                           FormatNumber(*options.sensor_width_mm) + " mm wide"};
+  }
+  if (metadata.focal_length_35mm) {
+    const double focal_mm = *metadata.focal_length_35mm;
+    return FocalLength{focal_mm / kDiagonal35mm * std::hypot(frame.width_px, frame.height_px),
+                       std::hypot(options.focal_length_share, kRounding / focal_mm),
+                       FormatNumber(focal_mm) + " mm for 35 mm film"};
+  }
+  if (metadata.focal_length_mm && metadata.pixels_per_mm && metadata.size_when_taken) {
+    const double taken_px =
+        std::max(metadata.size_when_taken->width, metadata.size_when_taken->height);
+    const double sensor_mm = taken_px / *metadata.pixels_per_mm;
+    // Sensors of phones to medium format; else the field was filled in with the print's resolution.
+    if (sensor_mm > 2 && sensor_mm < 70) {
+      return FocalLength{*metadata.focal_length_mm / sensor_mm * longer_px,
+                         options.focal_length_share,
+                         FormatNumber(*metadata.focal_length_mm) + " mm on a sensor " +
+                             FormatNumber(std::round(10 * sensor_mm) / 10) + " mm wide"};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string WhyNone(const PhotographMetadata& metadata) {
+  if (!metadata.focal_length_mm) {
+    for (const std::string& fault : metadata.faults) {
+      if (fault.starts_with("focal length")) return "the picture's metadata have a " + fault;
+    }
+    return "the picture's metadata say no focal length";
+  }
+  const std::string camera = metadata.model.empty() ? "its camera" : "the " + metadata.model;
+  return "the picture's metadata say a focal length of " + FormatNumber(*metadata.focal_length_mm) +
+         " mm, but not how large the sensor of " + camera +
+         " is (groundglass calibrate lens --sensor-width)";
+}
+
+}  // namespace
+
+void MetadataLensOptions::Check() const {
+  CheckFromTo(focal_length_share, 1e-6, 1, "metadata lens options: focal_length_share");
+  if (sensor_width_mm) CheckFromTo(*sensor_width_mm, 1, 500, "sensor-width");
+}
+
+MetadataLens FindMetadataLens(const PhotographMetadata& metadata,
+                              const MetadataLensOptions& options) {
+  options.Check();
+  if (metadata.is_panorama) return {{}, 0, "a panorama, which has no view angle of a lens"};
+  if (metadata.digital_zoom && *metadata.digital_zoom > 1.01) {
+    return {{},
+            0,
+            "digital zoom of " + FormatNumber(*metadata.digital_zoom) +
+                ", which cameras count into their focal lengths or not"};
+  }
+  const WholeFrame frame = FindWholeFrame(metadata);
+  const std::optional<FocalLength> focal = FindFocalLength(metadata, frame, options);
+  if (!focal) return {{}, 0, WhyNone(metadata)};
+  if (!frame.is_known) {
+    return {{},
+            0,
+            "the picture has " + SidesOf(metadata.size) + " pixels" + frame.remark +
+                " by both sides, so its scale is not known"};
+  }
+  const double half_tangent = metadata.size.width / (2 * focal->px);
+  MetadataLens found;
+  found.view_angle_deg = DegreesFromRadians(2 * std::atan(half_tangent));
+  found.sigma_deg =
+      DegreesFromRadians(2 * half_tangent / (1 + half_tangent * half_tangent)) * focal->sigma_share;
+  const std::string camera = std::string(TrimBlanks(metadata.model.starts_with(metadata.maker)
+                                                        ? metadata.model
+                                                        : metadata.maker + " " + metadata.model));
+  found.how = focal->how + (camera.empty() ? "" : " (" + camera + ")") + frame.remark;
+  return found;
+}
+
+}  // namespace groundglass

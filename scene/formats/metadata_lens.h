@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/formats/photograph_metadata.h"
+
+#include <optional>
+#include <string>
+
+namespace groundglass {
+
+struct MetadataLensOptions {
+  // One standard deviation of a lens' focal length about the one that is written: makers round
+  // nominal ones, and focusing near changes them. Share of the focal length.
+  double focal_length_share = 0.02;
+  // The sensor's width in the camera's own landscape, where its maker's data tell it and the
+  // photographs do not. Millimetres.
+  std::optional<double> sensor_width_mm;
+
+  void Check() const;  // throws Error naming the first field out of range
+};
+
+// The view angle that a photograph's metadata give, across the picture as it is now.
+struct MetadataLens {
+  std::optional<double> view_angle_deg;
+  double sigma_deg = 0;  // one standard deviation
+  // How it was found ("26 mm for 35 mm film"), or why there is none ("no metadata", ...); one line.
+  std::string how;
+};
+
+// From the focal length for 35 mm film, whose diagonal is what counts (CIPA DCG-001, 3.1); else
+// from the focal length and the sensor's pixels per millimetre or its width. A picture that was
+// made smaller since keeps its angle; of one that was cropped on one axis the uncropped side tells
+// the scale. Nothing where it would be a guess: no focal length, digital zoom, panoramas, crops on
+// both axes.
+MetadataLens FindMetadataLens(const PhotographMetadata& metadata,
+                              const MetadataLensOptions& options = {});
+
+}  // namespace groundglass

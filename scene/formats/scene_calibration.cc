@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/formats/known_keys.h"
+#include "scene/formats/metadata_lens.h"
+#include "scene/formats/scene_reader.h"
+#include "scene/formats/view_io.h"
+#include "scene/formats/view_pairs.h"
+
+#include <algorithm>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kNamesInNote = 3;
+constexpr const char* kFromMetadata = "the pictures' own metadata";
+// A camera's pixels are square to this share, one standard deviation.
+constexpr double kSquarePixels = 0.001;
+
+// What a lens says instead of a tag's view angle and aspect.
+KnownKeys KeysOfLens(const Lens& lens) {
+  KnownKeys keys;
+  AddKnown(keys, "v", lens.view_angle_deg);
+  AddKnown(keys, "a", lens.aspect);
+  return keys;
+}
+
+KnownKeys KeysOfMetadata(const MetadataLens& lens, const ImageSize& size) {
+  const double aspect = static_cast<double>(size.width) / size.height;
+  KnownKeys keys;
+  AddKnown(keys, "v", *lens.view_angle_deg);
+  AddKnown(keys, "sigma_v", lens.sigma_deg);
+  AddKnown(keys, "a", aspect);
+  AddKnown(keys, "sigma_a", kSquarePixels * aspect);
+  return keys;
+}
+
+bool LacksKey(const std::string& view_text, const char* key) {
+  return !KeysLacking(view_text, {{key, "1", ""}}).empty();
+}
+
+bool MakesCamera(const std::string& view_text) {
+  return !LacksKey(view_text, "x") && !LacksKey(view_text, "i");
+}
+
+}  // namespace
+
+void SceneReader::ReadCalibration() {
+  if (options_.views) return;  // these cameras are whole
+  for (const fs::path& file : ListFiles(folder_ / "calibration")) {
+    const std::string extension = LowerCase(file.extension().string());
+    try {
+      if (extension == ".lens") {
+        lenses_.push_back(ReadLens(file));
+        result_.scene.lens_files.push_back(file);
+      } else if (extension == ".view") {
+        const std::string name = NameInUtf8(file, file.stem().string());
+        ReadKnownKeys(file);
+        calibration_[name] = file;
+        const std::string text = ReadTextFile(file);
+        // As good as a tag, where there is none.
+        if (known_names_.count(name) > 0 || !MakesCamera(text)) continue;
+        known_names_[name] = file;
+        tags_[name] = {{}, file, text};
+      } else if (extension != ".txt" && extension != ".json") {
+        Warn(file, "neither a view file nor a lens file; expected the extension .view or .lens");
+      }
+    } catch (const Error& error) {
+      Fault(error.what());
+    }
+  }
+}
+
+std::string SceneReader::WithLens(std::string text, Photograph& photograph) {
+  if (!LacksKey(text, "v")) return text;
+  const std::string camera = ReadSomePairs(text, "").tag.camera;
+  for (const Lens& lens : lenses_) {
+    if (!lens.name.empty() && lens.name != camera) continue;
+    photograph.lens = lens;
+    taken_["the lens from calibration/"].push_back(photograph.name);
+    return WithKeys(text, KeysLacking(text, KeysOfLens(lens)));
+  }
+  return text;
+}
+
+std::string SceneReader::WithMetadata(std::string text,
+                                      const Photograph& photograph,
+                                      std::string& why_not) {
+  if (!LacksKey(text, "v") || not_images_.count(photograph.image_file) > 0) return text;
+  const MetadataLens lens = FindMetadataLens(ReadPhotographMetadata(photograph.image_file));
+  if (!lens.view_angle_deg) {
+    why_not = lens.how;
+    return text;
+  }
+  const KnownKeys keys = KeysLacking(text, KeysOfMetadata(lens, photograph.size));
+  taken_[NamesOf(keys) + " from " + kFromMetadata + ", " + lens.how].push_back(photograph.name);
+  return WithKeys(text, keys);
+}
+
+void SceneReader::CompleteTag(const FoundTag& found, Photograph& photograph) {
+  photograph.tag = found.tag;
+  if (!found.text) return;
+  std::string text = *found.text;
+  KnownKeys known;
+  if (const auto file = calibration_.find(photograph.name); file != calibration_.end()) {
+    photograph.calibration_file = file->second;
+    known = ReadKnownKeys(file->second);
+  }
+  // The camera's name first, which tells the lens; a lens that was measured before its data sheet.
+  KnownKeys camera = known;
+  std::erase_if(camera, [](const KnownKey& key) { return key.key != kCameraKey; });
+  text = WithLens(WithKeys(text, KeysLacking(text, camera)), photograph);
+  const KnownKeys taken = KeysLacking(text, known);
+  if (!taken.empty() && photograph.view_file != photograph.calibration_file) {
+    taken_[NamesOf(taken) + " from calibration/"].push_back(photograph.name);
+  }
+  text = WithKeys(text, taken);
+  std::string why_not;
+  text = WithMetadata(text, photograph, why_not);
+  const fs::path place = found.view_file.empty() ? folder_ / "tags.csv" : found.view_file;
+  const std::vector<std::string> faults = FindViewFaults(text, place);
+  for (const std::string& fault : faults) {
+    const bool is_view_angle = fault.ends_with("key 'v' is missing") && !why_not.empty();
+    FaultOf(photograph.name, is_view_angle ? fault + ", and " + why_not : fault);
+  }
+  if (faults.empty()) photograph.tag = ParseView(text, place);
+}
+
+void SceneReader::TellWhatWasTaken() {
+  for (const auto& [what, names] : taken_) {
+    std::string list;
+    for (size_t i = 0; i < std::min(kNamesInNote, names.size()); ++i) {
+      list += (i == 0 ? "" : ", ") + names[i];
+    }
+    if (names.size() > kNamesInNote) {
+      list += " and " + std::to_string(names.size() - kNamesInNote) + " more";
+    }
+    result_.scene.notes.push_back(list + ": " + what);
+  }
+}
+
+}  // namespace groundglass

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/formats/photograph_metadata.h"
+
+#include "scene/formats/known_keys.h"
+#include "scene/formats/metadata_lens.h"
+#include "scene/formats/scene_folder.h"
+#include "scene/formats/view_io.h"
+#include "tests/scene/sample_scene_folder.h"
+#include "tests/support/thrown_message.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace groundglass {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// A JPEG that says of itself what `say` puts into its header.
+void WritePhotograph(const std::filesystem::path& file,
+                     const std::function<void(OIIO::ImageSpec&)>& say,
+                     int width = 40,
+                     int height = 30) {
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeUInt8);
+  say(spec);
+  std::filesystem::create_directories(file.parent_path());
+  const auto output = OIIO::ImageOutput::create(file.string());
+  const std::vector<uint8_t> pixels(static_cast<size_t>(width) * height * 3, 128);
+  ASSERT_TRUE(output->open(file.string(), spec));
+  ASSERT_TRUE(output->write_image(OIIO::TypeUInt8, pixels.data()));
+  ASSERT_TRUE(output->close());
+}
+
+void SayPlace(OIIO::ImageSpec& spec, double latitude_minutes, double longitude_minutes) {
+  const float latitude[3] = {48, static_cast<float>(latitude_minutes), 0};
+  const float longitude[3] = {2, static_cast<float>(longitude_minutes), 0};
+  spec.attribute("GPS:Latitude", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 3), latitude);
+  spec.attribute("GPS:Longitude", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 3), longitude);
+  spec.attribute("GPS:LatitudeRef", "N");
+  spec.attribute("GPS:LongitudeRef", "W");
+}
+
+class PhotographMetadataTest : public TemporaryFolder, public testing::Test {
+ protected:
+  PhotographMetadata Read(const std::function<void(OIIO::ImageSpec&)>& say) {
+    WritePhotograph(path() / "p.jpg", say);
+    return ReadPhotographMetadata(path() / "p.jpg");
+  }
+  MetadataLens LensOf(const std::function<void(OIIO::ImageSpec&)>& say) {
+    return FindMetadataLens(Read(say));
+  }
+};
+
+TEST_F(PhotographMetadataTest, AFocalLengthFor35mmFilmCountsByTheDiagonal) {
+  const MetadataLens lens = LensOf([](OIIO::ImageSpec& spec) {
+    spec.attribute("Exif:FocalLengthIn35mmFilm", 26);
+    spec.attribute("Model", "Phone 12");
+  });
+  // 4:3 has 0.8 of its diagonal across; that of 36 mm x 24 mm is 43.267 mm.
+  ASSERT_TRUE(lens.view_angle_deg);
+  EXPECT_NEAR(*lens.view_angle_deg, 2 * std::atan(0.8 * 43.26661531 / 2 / 26) * 180 / M_PI, 1e-6);
+  // 2 % of the lens, and a whole number of millimetres: 2 tan / (1 + tan^2) is the sine.
+  const double share = std::hypot(0.02, 1 / std::sqrt(12.0) / 26);
+  EXPECT_NEAR(
+      lens.sigma_deg, share * std::sin(*lens.view_angle_deg * M_PI / 180) * 180 / M_PI, 1e-6);
+  EXPECT_EQ(lens.how, "26 mm for 35 mm film (Phone 12)");
+}
+
+TEST_F(PhotographMetadataTest, AFocalPlaneResolutionTellsTheSensorsWidth) {
+  // 40 pixels on 22.3 mm.
+  const MetadataLens lens = LensOf([](OIIO::ImageSpec& spec) {
+    spec.attribute("Exif:FocalLength", 18.0f);
+    spec.attribute("Exif:FocalPlaneXResolution", 40 / 2.23f);
+    spec.attribute("Exif:FocalPlaneResolutionUnit", 3);
+    spec.attribute("Exif:PixelXDimension", 40);
+    spec.attribute("Exif:PixelYDimension", 30);
+  });
+  ASSERT_TRUE(lens.view_angle_deg);
+  EXPECT_NEAR(*lens.view_angle_deg, 2 * std::atan(22.3 / 2 / 18) * 180 / M_PI, 1e-3);
+}
+
+TEST_F(PhotographMetadataTest, NoMetadataAreOneLineAndNoGuess) {
+  const MetadataLens lens = LensOf([](OIIO::ImageSpec&) {});
+  EXPECT_FALSE(lens.view_angle_deg);
+  EXPECT_EQ(lens.how, "the picture's metadata say no focal length");
+}
+
+TEST_F(PhotographMetadataTest, AFocalLengthAloneAsksForTheSensor) {
+  const auto say = [](OIIO::ImageSpec& spec) {
+    spec.attribute("Exif:FocalLength", 18.0f);
+    spec.attribute("Model", "D90");
+  };
+  EXPECT_THAT(LensOf(say).how, HasSubstr("not how large the sensor of the D90 is"));
+  MetadataLensOptions options;
+  options.sensor_width_mm = 36;
+  const MetadataLens lens = FindMetadataLens(Read(say), options);
+  ASSERT_TRUE(lens.view_angle_deg);
+  EXPECT_NEAR(*lens.view_angle_deg, 90, 1e-6);
+}
+
+TEST_F(PhotographMetadataTest, BadFocalLengthsAreNamed) {
+  EXPECT_EQ(LensOf([](OIIO::ImageSpec& spec) { spec.attribute("Exif:FocalLength", 0.0f); }).how,
+            "the picture's metadata have a focal length of 0");
+  EXPECT_THAT(LensOf([](OIIO::ImageSpec& spec) {
+                spec.attribute("Exif:FocalLengthIn35mmFilm", 26);
+                spec.attribute("Exif:DigitalZoomRatio", 2.0f);
+              }).how,
+              HasSubstr("digital zoom of 2"));
+}
+
+TEST_F(PhotographMetadataTest, CropsAndTurnsSinceAreHeeded) {
+  const auto taken_as = [](int width, int height) {
+    return [=](OIIO::ImageSpec& spec) {
+      spec.attribute("Exif:FocalLengthIn35mmFilm", 26);
+      spec.attribute("Exif:PixelXDimension", width);
+      spec.attribute("Exif:PixelYDimension", height);
+    };
+  };
+  const MetadataLens whole = LensOf(taken_as(4000, 3000));
+  EXPECT_EQ(whole.how, "26 mm for 35 mm film");
+  // An upright frame whose sides nobody exchanged in EXIF is the same frame.
+  const MetadataLens turned = LensOf(taken_as(3000, 4000));
+  EXPECT_THAT(turned.how, HasSubstr("turned since it was taken"));
+  EXPECT_DOUBLE_EQ(*turned.view_angle_deg, *whole.view_angle_deg);
+  // Of 50 x 30 pixels 40 x 30 are left: the scale is the frame's.
+  const MetadataLens cropped = LensOf(taken_as(50, 30));
+  EXPECT_NEAR(*cropped.view_angle_deg,
+              2 * std::atan(20 / (26 / 43.26661531 * std::hypot(50, 30))) * 180 / M_PI,
+              1e-6);
+  EXPECT_THAT(LensOf(taken_as(55, 33)).how, HasSubstr("cropped since it was taken (55 x 33)"));
+  EXPECT_FALSE(LensOf(taken_as(55, 33)).view_angle_deg);
+}
+
+TEST_F(PhotographMetadataTest, AGpsPositionHasItsSignsAndItsHeight) {
+  const PhotographMetadata metadata = Read([](OIIO::ImageSpec& spec) {
+    SayPlace(spec, 30, 15);
+    spec.attribute("GPS:Altitude", 35.5f);
+    spec.attribute("GPS:ImgDirection", 123.25f);
+    spec.attribute("GPS:ImgDirectionRef", "M");
+  });
+  ASSERT_TRUE(metadata.gps);
+  EXPECT_DOUBLE_EQ(metadata.gps->latitude_deg, 48.5);
+  EXPECT_DOUBLE_EQ(metadata.gps->longitude_deg, -2.25);
+  EXPECT_DOUBLE_EQ(*metadata.gps->height_m, 35.5);
+  EXPECT_DOUBLE_EQ(*metadata.direction.bearing_deg, 123.25);
+  EXPECT_TRUE(metadata.direction.is_bearing_magnetic);
+  EXPECT_THAT(metadata.faults, IsEmpty());
+}
+
+TEST_F(PhotographMetadataTest, NullIslandIsNoPlace) {
+  const PhotographMetadata metadata = Read([](OIIO::ImageSpec& spec) {
+    SayPlace(spec, 0, 0);
+    const float zeros[3] = {0, 0, 0};
+    spec.attribute("GPS:Latitude", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 3), zeros);
+    spec.attribute("GPS:Longitude", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 3), zeros);
+  });
+  EXPECT_FALSE(metadata.gps);
+  EXPECT_THAT(metadata.faults,
+              ElementsAre("GPS position at 0 N 0 E, in the sea off Africa: the receiver had no "
+                          "fix"));
+}
+
+TEST(KnownKeysTest, ANumberOfTheTagsOwnWins) {
+  const KnownKeys known = {{"x", "1", ""},
+                           {"y", "2", ""},
+                           {"z", "3", ""},
+                           {"v", "50", ""},
+                           {"sigma_v", "1", ""},
+                           {"roll", "2", ""},
+                           {"k1", "0.1", ""},
+                           {"sigma_k1", "0.01", ""}};
+  // The position comes whole or not at all, and a standard deviation goes with its number.
+  const KnownKeys taken = KeysLacking("x 5\ny 6\nz 7\nv 40\n", known);
+  EXPECT_EQ(NamesOf(taken), "roll k1");
+  EXPECT_EQ(taken.size(), 3u);
+}
+
+TEST(KnownKeysTest, SourcesAreKeptApart) {
+  const KnownKeys lens = MergeKnownKeys({}, {{"v", "50", ""}, {"sigma_v", "1", ""}}, "lens");
+  const KnownKeys lines = {{"v", "51", "90 lines"}, {"sigma_v", "0.5", ""}, {"roll", "1", ""}};
+  const KnownKeys both = MergeKnownKeys(lens, lines, "lines");
+  EXPECT_EQ(FormatKnownKeys(both, ""),
+            "v 51   % lines: 90 lines\nsigma_v 0.5   % lines\nroll 1   % lines\n");
+  // What a source says no more is gone.
+  EXPECT_EQ(NamesOf(MergeKnownKeys(both, {}, "lines")), "");
+  EXPECT_EQ(MergeKnownKeys(both, {{"v", "50", ""}, {"sigma_v", "2", ""}}, "lens"), both);
+}
+
+constexpr const char* kTagWithoutLens = "x 5 y 20 z 2\ni 5 j 0 k 2\n";
+
+TEST(SceneCalibration, ADigitalPhotographNeedsNoViewAngleInItsTag) {
+  SceneFolder folder;
+  folder.Write("views/s2.view", kTagWithoutLens);
+  WritePhotograph(
+      folder.path() / "images/s2.jpg",
+      [](OIIO::ImageSpec& spec) { spec.attribute("Exif:FocalLengthIn35mmFilm", 26); },
+      30,
+      20);
+  const Scene scene = ReadScene(folder.path());
+  ASSERT_EQ(scene.photographs.size(), 2u);
+  EXPECT_NEAR(scene.photographs[0].tag.view_angle_deg, 2 * std::atan(18.0 / 26) * 180 / M_PI, 1e-9);
+  EXPECT_DOUBLE_EQ(scene.photographs[0].tag.aspect, 1.5);
+  EXPECT_GT(scene.photographs[0].tag.sigmas.view_angle_deg, 1.0);
+  EXPECT_EQ(scene.photographs[1].tag.view_angle_deg, 40);
+  EXPECT_THAT(scene.notes,
+              ElementsAre("s2: a v from the pictures' own metadata, 26 mm for 35 mm film"));
+}
+
+TEST(SceneCalibration, WithoutMetadataAMissingViewAngleStaysAFault) {
+  SceneFolder folder;
+  folder.Write("views/s2.view", "a 1.5\n" + std::string(kTagWithoutLens));
+  const SceneCheck check = CheckScene(folder.path());
+  EXPECT_THAT(check.faults,
+              ElementsAre((folder.path() / "views/s2.view").string() +
+                          ": key 'v' is missing, and the picture's metadata say no focal length"));
+}
+
+TEST(SceneCalibration, ItsFolderGivesWhatTagsLack) {
+  SceneFolder folder;
+  folder.Write("views/s2.view", "camera nikon\n" + std::string(kTagWithoutLens));
+  folder.Write("calibration/s2.view", "v 44 sigma_v 1\nroll 1.5 sigma_roll 0.1\n");
+  folder.Write("calibration/nikon.lens", "camera nikon\nv 41\na 1.49\n");
+  // Where no tag is, a whole one of calibration/ serves.
+  std::filesystem::remove(folder.path() / "views/s10.view");
+  folder.Write("calibration/s10.view", kTag);
+  const Scene scene = ReadScene(folder.path());
+  ASSERT_EQ(scene.photographs.size(), 2u);
+  // A lens that was measured goes before what was found of one photograph.
+  EXPECT_EQ(scene.photographs[0].tag.view_angle_deg, 41);
+  ASSERT_TRUE(scene.photographs[0].lens);
+  EXPECT_EQ(scene.photographs[0].tag.roll_deg, 1.5);
+  EXPECT_EQ(scene.photographs[0].tag.sigmas.roll_deg, 0.1);
+  EXPECT_EQ(scene.photographs[1].name, "s10");
+  EXPECT_EQ(scene.photographs[1].tag, ParseView(kTag, "s10"));
+  EXPECT_EQ(scene.notes.size(), 2u);
+}
+
+TEST(SceneCalibration, AViewThatLacksKeysIsCorrectedWithThem) {
+  ViewTag corrected = ParseView(kTag, "s2");
+  corrected.view_angle_deg = 41;
+  const std::string text = FormatCorrectedView(kTagWithoutLens, corrected, {});
+  EXPECT_EQ(ParseView(text, "s2"), corrected);
+  EXPECT_THAT(text, HasSubstr("v 41 % (not measured)"));
+}
+
+}  // namespace
+}  // namespace groundglass
