@@ -65,7 +65,7 @@ void FindFaces(const PolygonModel& model, double tolerance, Place& place) {
   for (const auto& [distance, face] : near) place.faces.push_back(face);
 }
 
-double OnFaceTolerance(const PolygonModel& model, const PlaceOptions& options) {
+double OnFaceTolerance(const PolygonModel& model, const PickOptions& options) {
   return options.on_face_share * ComputeBounds(model).Diagonal();
 }
 
@@ -84,7 +84,7 @@ std::string At(const Survey& survey, int photograph, const Eigen::Vector2d& imag
 
 }  // namespace
 
-void PlaceOptions::Check() const {
+void PickOptions::Check() const {
   CheckAbove(pointing_sigma_px, 0, "place options: pointing_sigma_px");
   CheckFromTo(on_face_share, 0, 0.1, "place options: on_face_share");
 }
@@ -111,7 +111,7 @@ Place PlaceInPhotograph(const Survey& survey,
                         int photograph,
                         const Eigen::Vector2d& image_px,
                         int index,
-                        const PlaceOptions& options) {
+                        const PickOptions& options) {
   options.Check();
   const SurveyPhotograph& asked = survey.photographs[photograph];
   const Camera camera = asked.AsCamera();
@@ -165,7 +165,7 @@ Place PlaceInPhotograph(const Survey& survey,
 Place PlaceOnModel(const Survey& survey,
                    const Eigen::Vector3d& point_in_world,
                    int index,
-                   const PlaceOptions& options) {
+                   const PickOptions& options) {
   options.Check();
   Place place;
   place.point_in_world = point_in_world;

@@ -44,7 +44,7 @@ struct Place {
   Eigen::Matrix3d Covariance(ErrorKind kind) const;
 };
 
-struct PlaceOptions {
+struct PickOptions {
   double pointing_sigma_px = 1;  // one standard deviation each way
   // Points nearer to a face than this share of the model's size lie on it.
   double on_face_share = 1e-4;
@@ -62,13 +62,13 @@ Place PlaceInPhotograph(const Survey& survey,
                         int photograph,
                         const Eigen::Vector2d& image_px,
                         int index,
-                        const PlaceOptions& options = {});
+                        const PickOptions& options = {});
 
 // A point that was written down, with the faces that it lies on. Its deviation is the model's sigma
 // along each axis if it lies on the model, else none.
 Place PlaceOnModel(const Survey& survey,
                    const Eigen::Vector3d& point_in_world,
                    int index,
-                   const PlaceOptions& options = {});
+                   const PickOptions& options = {});
 
 }  // namespace groundglass

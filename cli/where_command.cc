@@ -31,7 +31,7 @@ struct WhereArguments {
   fs::path crops;
   int crop_radius_px = 32;
   bool csv = false;
-  PlaceOptions place;
+  PickOptions place;
   SightingOptions sighting;
 };
 

@@ -68,9 +68,9 @@ TEST(Answer, AFolderThatIsNeitherSceneNorOutputSaysWhatIsMissing) {
 }
 
 TEST(Answer, OptionsAreChecked) {
-  ExpectCheckNamesEach<PlaceOptions>(
-      {{"pointing_sigma_px", [](PlaceOptions& o) { o.pointing_sigma_px = 0; }},
-       {"on_face_share", [](PlaceOptions& o) { o.on_face_share = -1; }}});
+  ExpectCheckNamesEach<PickOptions>(
+      {{"pointing_sigma_px", [](PickOptions& o) { o.pointing_sigma_px = 0; }},
+       {"on_face_share", [](PickOptions& o) { o.on_face_share = -1; }}});
   ExpectCheckNamesEach<SightingOptions>(
       {{"min_angle_deg", [](SightingOptions& o) { o.min_angle_deg = kNotANumber; }}});
 }

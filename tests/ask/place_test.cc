@@ -81,7 +81,7 @@ TEST(Place, DeviationsAreThoseOfManyTrials) {
   const Survey survey = MakeWallSurvey();
   const Visibility visibility(survey.model);
   const Eigen::Vector2d image_px(420, 140);
-  PlaceOptions options;
+  PickOptions options;
   options.pointing_sigma_px = 0.8;
   const Place place = PlaceInPhotograph(survey, visibility, kSide, image_px, 0, options);
   Chance chance(survey, 7);
