@@ -13,6 +13,7 @@ void AddCalibrateCommand(CLI::App& app, int& exit_status) {
              "  groundglass calibrate lens hall");
   AddCalibrateBoard(command, exit_status);
   AddCalibrateLens(command, exit_status);
+  AddCalibrateLines(command, exit_status);
 }
 
 }  // namespace groundglass
