@@ -14,6 +14,7 @@ void AddCalibrateCommand(CLI::App& app, int& exit_status) {
   AddCalibrateBoard(command, exit_status);
   AddCalibrateLens(command, exit_status);
   AddCalibrateLines(command, exit_status);
+  AddCalibrateFrame(command, exit_status);
 }
 
 }  // namespace groundglass
