@@ -15,6 +15,7 @@ void AddCalibrateCommand(CLI::App& app, int& exit_status) {
   AddCalibrateLens(command, exit_status);
   AddCalibrateLines(command, exit_status);
   AddCalibrateFrame(command, exit_status);
+  AddCalibrateTags(command, exit_status);
 }
 
 }  // namespace groundglass

@@ -11,5 +11,6 @@ void AddCalibrateBoard(CLI::App* calibrate, int& exit_status);
 void AddCalibrateFrame(CLI::App* calibrate, int& exit_status);
 void AddCalibrateLens(CLI::App* calibrate, int& exit_status);
 void AddCalibrateLines(CLI::App* calibrate, int& exit_status);
+void AddCalibrateTags(CLI::App* calibrate, int& exit_status);
 
 }  // namespace groundglass
