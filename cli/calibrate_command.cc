@@ -16,6 +16,7 @@ void AddCalibrateCommand(CLI::App& app, int& exit_status) {
   AddCalibrateLines(command, exit_status);
   AddCalibrateFrame(command, exit_status);
   AddCalibrateTags(command, exit_status);
+  AddCalibrateExport(command, exit_status);
 }
 
 }  // namespace groundglass
