@@ -3,6 +3,7 @@
 #include "calibrate/april_tag_corners.h"
 
 #include "scene/quantile.h"
+#include "scene/srgb.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,6 +129,16 @@ std::optional<EdgeLine> FitLine(std::vector<Eigen::Vector2d> points,
 }
 
 }  // namespace
+
+ImageF LinearFromGrey(const Image8& srgb_grey) {
+  const std::array<float, 256>& linear = LinearOfSrgb8();
+  ImageF radiance(srgb_grey.width, srgb_grey.height, 1);
+  std::transform(srgb_grey.values.begin(),
+                 srgb_grey.values.end(),
+                 radiance.values.begin(),
+                 [&linear](uint8_t code) { return linear[code]; });
+  return radiance;
+}
 
 std::optional<AprilTagCorners> MeasureAprilTagCorners(const ImageF& radiance_grey,
                                                       const AprilTagDetection& start,

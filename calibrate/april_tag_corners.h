@@ -21,6 +21,9 @@ struct AprilTagCorners {
   Eigen::Matrix<double, 8, 8> information;
 };
 
+// 8-bit sRGB grey as linear light, in which corners are measured.
+ImageF LinearFromGrey(const Image8& srgb_grey);
+
 // Measures an AprilTag's corners in linear light as the meeting points of its four black edges.
 // Each edge is a straight line fitted through its subpixel crossings after the lens' distortion is
 // taken out (`lens`: intrinsics only), which keeps blur and rounding at the corners out of it;

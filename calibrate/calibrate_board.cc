@@ -7,7 +7,6 @@
 #include "calibrate/board_layout.h"
 #include "calibrate/board_solve.h"
 #include "scene/error.h"
-#include "scene/srgb.h"
 
 #include <tbb/parallel_for.h>
 
@@ -32,16 +31,6 @@ std::string Format(const char* format, double value) {
   std::array<char, 160> text;
   std::snprintf(text.data(), text.size(), format, value);
   return text.data();
-}
-
-ImageF LinearFromGrey(const Image8& srgb_grey) {
-  const std::array<float, 256>& linear = LinearOfSrgb8();
-  ImageF radiance(srgb_grey.width, srgb_grey.height, 1);
-  std::transform(srgb_grey.values.begin(),
-                 srgb_grey.values.end(),
-                 radiance.values.begin(),
-                 [&linear](uint8_t code) { return linear[code]; });
-  return radiance;
 }
 
 // Measures every detected AprilTag of the board, its corners taken as straight in `lens`.

@@ -13,6 +13,10 @@ void AddCalibrateCommand(CLI::App& app, int& exit_status) {
              "  groundglass calibrate lens hall");
   AddCalibrateBoard(command, exit_status);
   AddCalibrateLens(command, exit_status);
+  AddCalibrateLines(command, exit_status);
+  AddCalibrateFrame(command, exit_status);
+  AddCalibrateTags(command, exit_status);
+  AddCalibrateExport(command, exit_status);
 }
 
 }  // namespace groundglass

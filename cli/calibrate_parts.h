@@ -8,6 +8,10 @@ namespace groundglass {
 
 // Each adds a subcommand of `calibrate`. One file each.
 void AddCalibrateBoard(CLI::App* calibrate, int& exit_status);
+void AddCalibrateExport(CLI::App* calibrate, int& exit_status);
+void AddCalibrateFrame(CLI::App* calibrate, int& exit_status);
 void AddCalibrateLens(CLI::App* calibrate, int& exit_status);
+void AddCalibrateLines(CLI::App* calibrate, int& exit_status);
+void AddCalibrateTags(CLI::App* calibrate, int& exit_status);
 
 }  // namespace groundglass

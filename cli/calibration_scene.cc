@@ -93,12 +93,16 @@ void WriteKnownKeys(const CalibrationScene& scene,
 
 std::string DescribeKnownKeys(const KnownKeys& keys) {
   std::string text;
+  std::string last;  // the number before
   for (const KnownKey& key : keys) {
-    if (key.key.starts_with("sigma_")) {
+    const bool is_its_sigma =
+        key.key.starts_with("sigma_") && last.starts_with(key.key.substr(sizeof("sigma_") - 1));
+    if (is_its_sigma) {
       text += " +- " + Rounded(key.value);
     } else {
       text += (text.empty() ? "" : ", ") + key.key + " " + Rounded(key.value);
     }
+    last = key.key;
   }
   return text;
 }

@@ -3,6 +3,7 @@
 #include "scene/formats/lens.h"
 
 #include "scene/error.h"
+#include "scene/formats/foreign_lens.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
 
@@ -48,6 +49,7 @@ const LensKey* FindKey(std::string_view name) {
 Lens ReadLens(const std::filesystem::path& file) {
   Lens lens;
   const std::string text = ReadTextFile(file);
+  if (const std::optional<Lens> foreign = ReadForeignLens(text, file)) return *foreign;
   std::map<std::string, int> line_of_key;
   std::vector<TextToken> tokens;
   for (const TextLine& line : SplitLines(text)) {

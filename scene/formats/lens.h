@@ -23,7 +23,8 @@ struct Lens {
   double k3 = 0, p1 = 0, p2 = 0;
 };
 
-// Lens file (docs/lens-file.md): "key value" pairs as in a .view file, `%` comments.
+// Lens file (docs/lens-file.md): "key value" pairs as in a .view file, `%` comments; or another
+// program's (foreign_lens.h). Throws Error naming file, line and key.
 Lens ReadLens(const std::filesystem::path& file);
 std::string FormatLens(const Lens& lens);
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/image.h"
+
+#include <Eigen/Dense>
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace groundglass {
+
+struct FrameOptions {
+  // A border is even: so many of the places along the scan's rim differ from their median by no
+  // more than this; 8-bit grey levels.
+  double even_share = 0.8;
+  double even_levels = 14;
+  // The picture begins where the grey differs from the border's by this; grey levels.
+  double contrast_levels = 20;
+  // How far a border may reach into the scan, and how far the picture may be turned.
+  double deepest_share = 0.35;
+  double most_turn_deg = 8;
+  // A side is found if so many of the places along it lie on one line.
+  double least_on_line = 0.35;
+  // Sides are parallel or at right angles to this, each two of them; degrees.
+  double square_deg = 1.0;
+  // Width / height of what the mount shows, whichever side is up; outside of these it is no frame.
+  double least_aspect = 0.95;
+  double most_aspect = 1.75;
+  // Of what is seen, where one side lies outside of the scan: it then tells the missing one.
+  std::optional<double> aspect;
+
+  void Check() const;  // throws Error naming the first field out of range
+};
+
+// The opening of a slide's mount, or the picture within a print's or a glass plate's border, in a
+// scan of all of it.
+struct SlideFrame {
+  bool is_found = false;
+  std::string reason;  // if not: one line for a person
+  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
+  double width_px = 0;
+  double height_px = 0;
+  double turn_deg = 0;  // clockwise, as the scan is looked at
+  double sigma_turn_deg = 0;
+  double sigma_px = 0;  // of each side's place, one standard deviation
+  std::array<bool, 4> is_side_seen = {false, false, false, false};  // left, top, right, bottom
+};
+
+// Finds it by walking in from every side of the scan until the border ends, and fitting a line to
+// what lies on one; rounded corners and dark parts of the picture beside the border do not.
+SlideFrame FindSlideFrame(const Image8& srgb_grey, const FrameOptions& options = {});
+
+// Width / height of the whole raster of a digitised television frame of this size (ITU-R BT.601,
+// of which 4:3 take 710.85 of 720 pixels across 480 or 486 lines, 702 of 720 across 576; square
+// pixels for 640 x 480 and 768 x 576); nothing for other sizes.
+std::optional<double> VideoAspect(int width_px, int height_px);
+
+}  // namespace groundglass

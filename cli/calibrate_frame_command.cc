@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "calibrate/slide_frame.h"
+#include "cli/calibrate_parts.h"
+#include "cli/calibration_scene.h"
+#include "cli/json_output.h"
+#include "scene/error.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/image_paths.h"
+#include "scene/frames.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FrameArguments {
+  CalibrationArguments calibration;
+  FrameOptions options;
+  std::optional<fs::path> images_folder;
+};
+
+// The film's play behind the mount's opening: 36 mm x 24 mm behind 35 mm x 23 mm, one standard
+// deviation, of the width.
+constexpr double kMountPlay = 0.008;
+
+// The frame's part of a scan, its sides along the pixels: what is lost at the corners of a turned
+// one is less than resampling would lose everywhere.
+template <typename T>
+Raster<T> Cropped(const Raster<T>& scan, int left, int top, int width, int height) {
+  Raster<T> crop(width, height, scan.channels);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      std::copy_n(
+          scan.At(std::clamp(left + x, 0, scan.width - 1), std::clamp(top + y, 0, scan.height - 1)),
+          scan.channels,
+          crop.At(x, y));
+    }
+  }
+  return crop;
+}
+
+// White where a crop shows the border; empty if it shows none.
+Image16 BorderMask(const SlideFrame& frame, int width, int height) {
+  Image16 mask(width, height, 1);
+  const double turn = RadiansFromDegrees(frame.turn_deg);
+  bool shows_border = false;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Eigen::Vector2d off(x + 0.5 - width / 2.0, y + 0.5 - height / 2.0);
+      const double across = std::abs(std::cos(turn) * off.x() + std::sin(turn) * off.y());
+      const double along = std::abs(-std::sin(turn) * off.x() + std::cos(turn) * off.y());
+      // The border's blur as well.
+      const bool is_border = across > frame.width_px / 2 - 2 || along > frame.height_px / 2 - 2;
+      if (is_border) *mask.At(x, y) = 65535;
+      shows_border = shows_border || is_border;
+    }
+  }
+  return shows_border ? mask : Image16();
+}
+
+KnownKeys KeysOfFrame(const SlideFrame& frame) {
+  KnownKeys keys;
+  const double aspect = frame.width_px / frame.height_px;
+  AddKnown(keys, "a", aspect, "the mount's opening");
+  AddKnown(keys, "sigma_a", aspect * std::max(0.002, 2 * frame.sigma_px / frame.height_px));
+  AddKnown(keys, "roll", -frame.turn_deg, "turned in the scan");
+  AddKnown(keys, "sigma_shift", kMountPlay, "the film's play in the mount");
+  return keys;
+}
+
+KnownKeys KeysOfVideo(double aspect) {
+  KnownKeys keys;
+  AddKnown(keys, "a", aspect, "a television frame's raster");
+  AddKnown(keys, "sigma_a", 0.005 * aspect);
+  return keys;
+}
+
+// Where the photographs of a scene lie, if any has this name already.
+bool HasPhotograph(const fs::path& folder, const std::string& name) {
+  for (const std::string& path : ListFilesBelow(folder)) {
+    if (WithoutExtension(path) == name) return true;
+  }
+  return false;
+}
+
+// Writes the frame's part of a scan, and its mask; returns what was written, or why not.
+std::string WriteCrop(const FrameArguments& arguments,
+                      const CalibrationScene& scene,
+                      const CalibrationPhotograph& scan,
+                      const SlideFrame& frame) {
+  fs::path images;
+  if (arguments.images_folder) {
+    images = *arguments.images_folder;
+  } else if (!scene.scene_folder.empty()) {
+    images = scene.scene_folder / "images";
+  } else {
+    return "";
+  }
+  if (HasPhotograph(images, scan.name)) return "not cropped, since " + images.string() + " has it";
+  const int width = static_cast<int>(std::lround(frame.width_px));
+  const int height = static_cast<int>(std::lround(frame.height_px));
+  const int left = static_cast<int>(std::lround(frame.center_px.x() - frame.width_px / 2));
+  const int top = static_cast<int>(std::lround(frame.center_px.y() - frame.height_px / 2));
+  const fs::path file = images / (scan.name + ".png");
+  WriteSrgb8(file, Cropped(ReadSrgb8(scan.file), left, top, width, height));
+  const Image16 mask = BorderMask(frame, width, height);
+  if (!mask.Empty()) WriteLabels(images.parent_path() / "masks" / (scan.name + ".png"), mask);
+  return file.string();
+}
+
+nlohmann::ordered_json JsonFromFrame(const std::string& name, const SlideFrame& frame) {
+  if (!frame.is_found) return {{"name", name}, {"found", false}, {"reason", frame.reason}};
+  return {{"name", name},
+          {"found", true},
+          {"center_px", {frame.center_px.x(), frame.center_px.y()}},
+          {"width_px", frame.width_px},
+          {"height_px", frame.height_px},
+          {"turn_deg", frame.turn_deg},
+          {"sigma_turn_deg", frame.sigma_turn_deg}};
+}
+
+int RunCalibrateFrame(const FrameArguments& arguments) {
+  const CommonOptions& common = arguments.calibration.common;
+  const std::vector<fs::path>& inputs = arguments.calibration.inputs;
+  const bool has_scans = inputs.size() == 1 && fs::is_directory(inputs.front() / "scans");
+  const CalibrationScene scene =
+      ReadCalibrationScene(arguments.calibration, has_scans ? "scans" : "images");
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const CalibrationPhotograph& scan : scene.photographs) {
+    SlideFrame frame;
+    KnownKeys keys;
+    std::string crop;
+    try {
+      const Image8 grey = ReadGrey8(scan.file);
+      const std::optional<double> video = VideoAspect(grey.width, grey.height);
+      frame = FindSlideFrame(grey, arguments.options);
+      if (frame.is_found && (has_scans || scene.scene_folder.empty())) {
+        keys = KeysOfFrame(frame);
+        if (!common.dry_run) crop = WriteCrop(arguments, scene, scan, frame);
+      } else if (frame.is_found) {
+        frame.is_found = false;
+        frame.reason = "it shows its mount; put it into scans/ in place of images/";
+      } else if (video) {
+        keys = KeysOfVideo(*video);
+      }
+    } catch (const Error& error) {
+      frame.reason = error.what();
+    }
+    if (!common.dry_run) WriteKnownKeys(scene, scan.name, keys, "frame");
+    if (common.json) {
+      json.push_back(JsonFromFrame(scan.name, frame));
+    } else {
+      std::printf("%s: %s%s%s\n",
+                  scan.name.c_str(),
+                  keys.empty() ? ("nothing, since " + frame.reason).c_str()
+                               : DescribeKnownKeys(keys).c_str(),
+                  crop.empty() ? "" : "; ",
+                  crop.c_str());
+    }
+  }
+  if (common.json) PrintJson({{"photographs", json}});
+  return kExitDone;
+}
+
+}  // namespace
+
+void AddCalibrateFrame(CLI::App* calibrate, int& exit_status) {
+  auto arguments = std::make_shared<FrameArguments>();
+  CLI::App* command = calibrate->add_subcommand(
+      "frame", "Slides' pictures cut from scans that show their mounts; prints from their borders");
+  AddCalibrationArguments(command, arguments->calibration);
+  command
+      ->add_option("--images",
+                   arguments->images_folder,
+                   "where to write the pictures; images/ of the scene folder if not given")
+      ->type_name("FOLDER");
+  command
+      ->add_option("--aspect",
+                   arguments->options.aspect,
+                   "width / height of the openings, where a side lies outside of the scan")
+      ->check(CLI::PositiveNumber);
+  AddExample(command, "groundglass calibrate frame hall     # hall/scans/ into hall/images/");
+  command->callback([arguments, &exit_status] {
+    exit_status = RunWithThreads(arguments->calibration.common,
+                                 [&] { return RunCalibrateFrame(*arguments); });
+  });
+}
+
+}  // namespace groundglass

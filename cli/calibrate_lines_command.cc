@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "calibrate/calibrate_lines.h"
+#include "cli/calibrate_parts.h"
+#include "cli/calibration_scene.h"
+#include "cli/json_output.h"
+#include "scene/error.h"
+#include "scene/formats/image_io.h"
+#include "scene/text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace groundglass {
+namespace {
+
+struct LinesArguments {
+  CalibrationArguments calibration;
+  LinesOptions options;
+};
+
+// Width / height as the photograph's tag, or calibration/, has it; nothing where neither says it.
+std::optional<double> FindAspect(const CalibrationScene& scene, const std::string& name) {
+  if (scene.scene_folder.empty()) return std::nullopt;
+  for (const char* folder : {"views", "calibration"}) {
+    const std::filesystem::path file = scene.scene_folder / folder / (name + ".view");
+    if (!std::filesystem::is_regular_file(file)) continue;
+    for (const KnownKey& key : ReadKnownKeys(file)) {
+      if (key.key == "a") return ParseNumber(key.value);
+    }
+  }
+  return std::nullopt;
+}
+
+nlohmann::ordered_json JsonFromLines(const std::string& name, const LinesResult& result) {
+  if (!result.is_found) return {{"name", name}, {"found", false}, {"reason", result.reason}};
+  return {{"name", name},
+          {"found", true},
+          {"v", result.view_angle_deg},
+          {"sigma_v", result.sigma_view_angle_deg},
+          {"roll", result.roll_deg},
+          {"sigma_roll", result.sigma_roll_deg},
+          {"shift_x", result.shift_x},
+          {"sigma_shift_x", result.sigma_shift_x},
+          {"shift_y", result.shift_y},
+          {"sigma_shift_y", result.sigma_shift_y},
+          {"k1", result.k1},
+          {"sigma_k1", result.sigma_k1},
+          {"pitch", result.pitch_deg},
+          {"sigma_pitch", result.sigma_pitch_deg},
+          {"lines", result.num_of_direction},
+          {"rms_px", result.rms_px}};
+}
+
+void PrintLines(const std::string& name, const LinesResult& result, const KnownKeys& keys) {
+  if (!result.is_found) {
+    std::printf("%s: nothing, since %s\n", name.c_str(), result.reason.c_str());
+    return;
+  }
+  std::printf("%s: %s; %d lines, %.2f px\n",
+              name.c_str(),
+              DescribeKnownKeys(keys).c_str(),
+              result.num_segments,
+              result.rms_px);
+}
+
+int RunCalibrateLines(const LinesArguments& arguments) {
+  const CommonOptions& common = arguments.calibration.common;
+  const CalibrationScene scene = ReadCalibrationScene(arguments.calibration);
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const CalibrationPhotograph& photograph : scene.photographs) {
+    LinesResult result;
+    try {
+      LinesOptions options = arguments.options;
+      if (!options.aspect) options.aspect = FindAspect(scene, photograph.name);
+      result = CalibrateLines(ReadGrey8(photograph.file), options, common.seed);
+    } catch (const Error& error) {
+      result.reason = error.what();
+    }
+    const KnownKeys keys = KeysOfLines(result, arguments.options);
+    if (!common.dry_run) WriteKnownKeys(scene, photograph.name, keys, "lines");
+    if (common.json) {
+      json.push_back(JsonFromLines(photograph.name, result));
+    } else {
+      PrintLines(photograph.name, result, keys);
+    }
+  }
+  if (common.json) PrintJson({{"photographs", json}});
+  return kExitDone;
+}
+
+}  // namespace
+
+void AddCalibrateLines(CLI::App* calibrate, int& exit_status) {
+  auto arguments = std::make_shared<LinesArguments>();
+  CLI::App* command = calibrate->add_subcommand(
+      "lines", "View angle, roll, shift and k1 from a building's parallel and straight lines");
+  AddCalibrationArguments(command, arguments->calibration);
+  command
+      ->add_option("--aspect",
+                   arguments->options.aspect,
+                   "width / height of the whole picture, if its pixels are not square and no tag "
+                   "says it")
+      ->check(CLI::PositiveNumber);
+  AddExample(command, "groundglass calibrate lines hall");
+  command->callback([arguments, &exit_status] {
+    exit_status = RunWithThreads(arguments->calibration.common,
+                                 [&] { return RunCalibrateLines(*arguments); });
+  });
+}
+
+}  // namespace groundglass
