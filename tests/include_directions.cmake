@@ -13,13 +13,14 @@ set(may_include_register scene)
 set(may_include_invrender scene)
 set(may_include_viewer scene)
 set(may_include_drawing scene viewer)
+set(may_include_exchange scene)
 set(may_include_report scene)
 set(may_include_pipeline scene calibrate register invrender viewer report)
 set(may_include_datasets-synthetic scene)
 set(may_include_evaluate scene calibrate register invrender viewer datasets-synthetic)
-set(may_include_cli scene calibrate register invrender viewer drawing report pipeline datasets-synthetic
+set(may_include_cli scene calibrate register invrender viewer drawing exchange report pipeline datasets-synthetic
     evaluate)
-set(rooms scene calibrate register invrender viewer drawing report pipeline datasets-synthetic evaluate cli)
+set(rooms scene calibrate register invrender viewer drawing exchange report pipeline datasets-synthetic evaluate cli)
 
 # The floors of a room, lowest first: a file includes its own floor and those before it; files that
 # stand in the room itself are above them all, but in scene, whose vocabulary all its formats speak.
