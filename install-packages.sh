@@ -10,7 +10,7 @@ set -euo pipefail
 build=(g++ cmake ninja-build pkg-config
   libopencv-dev libceres-dev libeigen3-dev libtbb-dev libembree-dev
   libopenimageio-dev openimageio-tools  # its CMake file asks for its programs too
-  liblcms2-dev libjpeg-dev libutf8proc-dev libtinygltf-dev libstb-dev nlohmann-json3-dev
+  liblcms2-dev libjpeg-dev libtiff-dev libutf8proc-dev libtinygltf-dev libstb-dev nlohmann-json3-dev
   libcli11-dev libssl-dev libfmt-dev libkainjow-mustache-dev
   libapriltag-dev libosmesa6-dev libsqlite3-dev ffmpeg)
 test=(libgtest-dev libgmock-dev libbenchmark-dev colmap)

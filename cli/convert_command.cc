@@ -5,8 +5,15 @@
 #include "cli/model_arguments.h"
 #include "cli/option_range.h"
 #include "cli/warnings_last.h"
+#include "exchange/camera_exchange.h"
+#include "exchange/city_gml.h"
+#include "exchange/city_json.h"
+#include "scene/error.h"
 #include "scene/formats/colmap_io.h"
 #include "scene/formats/convert.h"
+#include "scene/formats/osu_io.h"
+#include "scene/formats/textured_model_io.h"
+#include "scene/text.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -21,11 +28,53 @@ struct ConvertArguments {
   ModelArguments model_arguments;
   std::optional<LengthUnit> output_unit;
   std::string images;
+  std::string format;  // that cameras are written in; empty: view files, or COLMAP's text
   double lookat_distance = 100;
 };
 
+bool EndsIn(const std::string& file, std::string_view ending) {
+  return LowerCase(file).ends_with(ending);
+}
+
+// A textured model for programs of cities.
+ConvertResult ConvertToCityJson(const ConvertArguments& arguments) {
+  TexturedModelReading reading =
+      ReadTexturedModel(arguments.input, arguments.model_arguments.Options());
+  WriteFilesAtomically(FormatCityJson(reading.textured, arguments.output));
+  return {std::to_string(reading.textured.model.faces.size()) + " faces in " + arguments.output,
+          std::move(reading.warnings),
+          std::move(reading.left_out)};
+}
+
+ConvertResult ConvertFromCityGml(const ConvertArguments& arguments) {
+  const ModelReading reading = ReadCityGml(arguments.input);
+  const PolygonModel& model = reading.model;
+  if (EndsIn(arguments.output, ".osu")) {
+    WriteFileAtomically(arguments.output, FormatOsu(model));
+  } else if (EndsIn(arguments.output, ".obj")) {
+    WriteFileAtomically(arguments.output, FormatObj(model));
+  } else {
+    throw Error(arguments.output, "a CityGML model is written as .osu or .obj");
+  }
+  return {std::to_string(model.faces.size()) + " faces in " + arguments.output,
+          reading.warnings,
+          reading.left_out};
+}
+
+ConvertResult ConvertCameras(const ConvertArguments& arguments) {
+  const ExchangeSource source = ReadExchangeSource(arguments.input, arguments.images);
+  ExchangeResult result =
+      arguments.format.empty()
+          ? WriteCamerasAsViews(source, arguments.output, arguments.lookat_distance)
+          : WriteCamerasAs(arguments.format, source, arguments.output);
+  return {std::move(result.summary), std::move(result.warnings)};
+}
+
 ConvertResult Convert(const ConvertArguments& arguments) {
   const std::filesystem::path input = arguments.input;
+  if (!arguments.format.empty() || IsCameraFile(input)) return ConvertCameras(arguments);
+  if (EndsIn(arguments.output, ".city.json")) return ConvertToCityJson(arguments);
+  if (EndsIn(arguments.input, ".gml")) return ConvertFromCityGml(arguments);
   if (std::filesystem::is_directory(input)) {
     if (FindColmapModel(input)) {
       return ConvertColmapToViews(input, arguments.output, arguments.lookat_distance);
@@ -69,10 +118,14 @@ void AddConvertCommand(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command = app.add_subcommand(
       "convert",
-      "Convert between formats: a model (.osu .obj .ply .stl .gltf .glb to .osu .obj .glb), or\n"
-      "cameras (a COLMAP model, text or binary, to a folder of .view files, and back)");
-  command->add_option("input", arguments->input, "a model, or a folder of cameras")->required();
-  command->add_option("output", arguments->output, "a model, or a folder for cameras")->required();
+      "Convert between formats: a model (.osu .obj .ply .stl .gml .gltf .glb to .osu .obj .glb\n"
+      ".city.json), or cameras (an output folder, a COLMAP model, a folder of .view files, or "
+      "another\n"
+      "program's file to .view files, or with --to to another program's; view files to COLMAP's)");
+  command->add_option("input", arguments->input, "a model, or cameras: a folder or a file")
+      ->required();
+  command->add_option("output", arguments->output, "a model, or a folder or file for cameras")
+      ->required();
   command->add_option_function<std::string>(
       "--to-unit",
       [raw = arguments.get()](const std::string& unit) {
@@ -82,8 +135,13 @@ void AddConvertCommand(CLI::App& app, int& exit_status) {
         }
       },
       "write the model's lengths in this unit: " + UnitNames());
+  AddChoice(command,
+            "--to",
+            CameraFormatNames(),
+            "write cameras as another program has them:\n" + DescribeCameraFormats(),
+            arguments->format);
   command->add_option(
-      "--images", arguments->images, "the photographs of the view files (default: ../images)");
+      "--images", arguments->images, "the photographs (of view files by default: ../images)");
   command
       ->add_option("--lookat-distance",
                    arguments->lookat_distance,
@@ -92,7 +150,9 @@ void AddConvertCommand(CLI::App& app, int& exit_status) {
       ->capture_default_str();
   AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);
-  AddExample(command, "groundglass convert hall.obj hall/model.osu --up y --unit m");
+  AddExample(command,
+             "groundglass convert hall.obj hall/model.osu --up y --unit m\n"
+             "  groundglass convert hall-out hall.mlp --to meshlab --images hall/images");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->common, [arguments] { return RunConvert(*arguments); });
   });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/elevation_arguments.h"
 #include "cli/model_arguments.h"
 #include "cli/option_range.h"
 #include "invrender/tiles1988/tiles.h"
@@ -64,6 +65,7 @@ struct RenderArguments {
   RenderOptions render;
   FilmOptions film;
   OrbitOptions orbit;
+  ElevationArguments elevation;
 };
 
 TexturedModelReading ReadModelToRender(const RenderArguments& arguments) {
@@ -231,6 +233,16 @@ int RenderTiles(const RenderArguments& arguments) {
   return kExitDone;
 }
 
+int RenderToScale(const RenderArguments& arguments) {
+  const TexturedModelReading reading = ReadModelToRender(arguments);
+  return RenderElevations(arguments.elevation,
+                          arguments.common,
+                          reading.textured,
+                          fs::is_directory(arguments.model) ? arguments.model : fs::path(),
+                          arguments.out,
+                          reading.warnings);
+}
+
 int RunRender(const RenderArguments& arguments) {
   arguments.render.Check();
   arguments.film.Check();
@@ -238,6 +250,7 @@ int RunRender(const RenderArguments& arguments) {
   if (IsTileRecord(arguments.model) || !FindTileFiles(arguments.model).empty()) {
     return RenderTiles(arguments);
   }
+  if (arguments.elevation.IsAsked()) return RenderToScale(arguments);
   if (!arguments.path.empty()) {
     if (arguments.out.extension() != ".mp4") throw Error(arguments.out, "a film ends in .mp4");
     if (arguments.render.background == Background::kTransparent) {
@@ -258,13 +271,17 @@ void AddRenderCommand(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<RenderArguments>();
   arguments->render.supersampling = 2;
   CLI::App* command =
-      app.add_subcommand("render", "Draw a model: stills from views, overlays, films");
+      app.add_subcommand("render", "Draw a model: stills from views, overlays, films, elevations");
   command
       ->add_option("model",
                    arguments->model,
                    "an output folder, its tiles/, or a .glb, .obj, .osu, ... model")
       ->required();
-  command->add_option("-o,--out", arguments->out, "the picture (.png, .jpg, .tif) or film (.mp4)")
+  command
+      ->add_option(
+          "-o,--out",
+          arguments->out,
+          "the picture (.png, .jpg, .tif), film (.mp4) or drawing (.tif, .pdf, .svg, .dxf)")
       ->required();
   CLI::Option* view = command->add_option("--view", arguments->view_file, "the view to draw");
   CLI::Option* path = command->add_option(
@@ -293,13 +310,18 @@ void AddRenderCommand(CLI::App& app, int& exit_status) {
       ->capture_default_str();
   command->add_option("--orbit-height", arguments->orbit.height_deg, "degrees above the model")
       ->capture_default_str();
+  AddElevationOptions(command, arguments->elevation);
   AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);
-  AddExample(command,
-             "groundglass render hall-out --view from-the-roof.view -o roof.png\n"
-             "  groundglass render hall-out --path orbit -o around.mp4");
+  AddExample(
+      command,
+      "groundglass render hall-out --view from-the-roof.view -o roof.png\n"
+      "  groundglass render hall-out --path orbit -o around.mp4\n"
+      "  groundglass render hall-out --elevation all --scale 1:50 -o hall.tif --also pdf,dxf");
   command->callback([arguments, view, path, &exit_status] {
-    if (view->count() + path->count() == 0) throw CLI::RequiredError("--view or --path");
+    if (view->count() + path->count() == 0 && !arguments->elevation.IsAsked()) {
+      throw CLI::RequiredError("--view, --path, --elevation, --section or --developed");
+    }
     arguments->render.mode = kModes.at(arguments->mode);
     arguments->render.background = kBackgrounds.at(arguments->background);
     exit_status = RunWithThreads(arguments->common, [&] { return RunRender(*arguments); });

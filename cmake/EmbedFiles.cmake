@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # groundglass_embed(out.cc HEADER report/report_page.h
 #                   FILES kReportTemplate report.mustache kReportStyle report.css)
+# A file that the build makes is named by its whole path.
 # Makes a source in the build folder that holds files of this folder as strings, so that the program
 # need not find them when it runs. HEADER declares them: extern const char kReportTemplate[];
 function(groundglass_embed source)
@@ -9,7 +10,8 @@ function(groundglass_embed source)
   set(files)
   while(names_and_files)
     list(POP_FRONT names_and_files name file)
-    list(APPEND files ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+    cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    list(APPEND files ${file})
   endwhile()
   set(script ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/EmbedFilesScript.cmake)
   add_custom_command(

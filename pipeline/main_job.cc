@@ -189,7 +189,7 @@ void WriteReport(MainJob& job) {
   job.stages.Begin(kReportStage, job.keys.registration, {"report.html"});
   job.observer.Begin(kReportStage);
   ReportOptions report;
-  report.draw_edges = MakeEdgeDrawing(job.scene.model);
+  report.find_edges = MakeEdgeFinding(job.scene.model);
   WriteFileAtomically(job.out / "report.html", MakeReport(job.out, &job.scene, report));
   job.stages.Finish(kReportStage);
 }

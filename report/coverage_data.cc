@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -102,14 +104,59 @@ mustache::data CoverageDataOf(const Json& coverage) {
 
 }  // namespace
 
-mustache::data CoverageData(const ReportInput& input) {
+namespace {
+
+// How much area each photograph gives to the texture, largest first.
+mustache::data ProvenanceDataOf(const Json& coverage, const std::string& unit) {
+  std::map<std::string, double> area_of_photograph;
+  double all = 0;
+  for (const Json& face : coverage.value("faces", std::vector<Json>())) {
+    const double texel = face.value("texel_size", 0.0);
+    for (const Json& source : face.value("sources", Json::array())) {
+      const double area = source.value("texels", 0.0) * texel * texel;
+      area_of_photograph[source.value("photograph", "")] += area;
+      all += area;
+    }
+  }
+  if (!(all > 0)) return false;
+  std::vector<std::pair<std::string, double>> sorted(area_of_photograph.begin(),
+                                                     area_of_photograph.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    return a.second > b.second;
+  });
+  mustache::list rows;
+  for (const auto& [name, area] : sorted) {
+    mustache::data row;
+    row["name"] = name;
+    row["area"] = FormatSigma(area) + unit + "\u00b2";
+    row["share"] = FormatShare(area / all);
+    row["percent"] = std::to_string(std::lround(100 * area / all));
+    rows.push_back(std::move(row));
+  }
+  return {"rows", rows};
+}
+
+// What `make` makes of coverage.json; Error if it is of another shape.
+template <typename Make>
+mustache::data FromCoverage(const ReportInput& input, const Make& make) {
   if (!input.coverage) return false;
   try {
-    return CoverageDataOf(*input.coverage);
+    return make(*input.coverage);
   } catch (const Json::exception& error) {
     throw Error(input.folder / "coverage.json",
                 OneLine(std::string("is not as texturing writes it: ") + error.what()));
   }
+}
+
+}  // namespace
+
+mustache::data CoverageData(const ReportInput& input) {
+  return FromCoverage(input, CoverageDataOf);
+}
+
+mustache::data ProvenanceData(const ReportInput& input) {
+  return FromCoverage(input,
+                      [&](const Json& coverage) { return ProvenanceDataOf(coverage, input.unit); });
 }
 
 }  // namespace groundglass

@@ -28,14 +28,24 @@ Image8 ShrunkPicture(const Image8& srgb8, int width_px) {
   return ReducedInLight(srgb8, width_px, height_px);
 }
 
-kainjow::mustache::data PictureData(const Image8& srgb8, int width_px) {
-  const Image8 picture = ShrunkPicture(srgb8, width_px);
+kainjow::mustache::data PictureData(const Image8& srgb8, int width_px, size_t max_bytes) {
+  constexpr int kLeastWidthPx = 120;
+  Image8 picture = ShrunkPicture(srgb8, width_px);
   ImageWriteOptions options;
-  options.jpeg_quality = 82;
+  options.jpeg_quality = 85;
+  std::vector<uint8_t> jpeg = EncodeImage(picture, ".jpg", options);
+  while (jpeg.size() > max_bytes && picture.width > kLeastWidthPx) {
+    if (options.jpeg_quality > 65) {
+      options.jpeg_quality -= 10;
+    } else {
+      picture = ShrunkPicture(srgb8, std::max(kLeastWidthPx, picture.width * 3 / 4));
+    }
+    jpeg = EncodeImage(picture, ".jpg", options);
+  }
   kainjow::mustache::data data;
   data["width"] = std::to_string(picture.width);
   data["height"] = std::to_string(picture.height);
-  data["jpeg"] = EncodeBase64(EncodeImage(picture, ".jpg", options));
+  data["jpeg"] = EncodeBase64(jpeg);
   return data;
 }
 

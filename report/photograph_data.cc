@@ -5,6 +5,7 @@
 #include "report/report_text.h"
 #include "scene/formats/image_io.h"
 #include "scene/model_sigma.h"
+#include "scene/text.h"
 
 #include <algorithm>
 #include <array>
@@ -58,32 +59,46 @@ mustache::data TableRowData(const Registration& registration) {
   return row;
 }
 
-// The photograph with the edges as measured and as corrected, side by side; false without scene.
-mustache::data PairData(const Registration& registration, const ReportInput& input) {
+// Lines as an SVG path in tenths of pixels; what is shorter than a pixel is left out.
+std::string EdgePath(const std::vector<std::vector<Eigen::Vector2d>>& lines) {
+  const auto tenths = [](double px) { return FormatNumber(std::round(10 * px) / 10 + 0.0); };
+  std::string path;
+  for (const std::vector<Eigen::Vector2d>& line : lines) {
+    if (line.size() < 2 || (line.back() - line.front()).norm() < 1) continue;
+    for (size_t i = 0; i < line.size(); ++i) {
+      path += (i == 0 ? "M" : "L") + tenths(line[i].x()) + " " + tenths(line[i].y());
+    }
+  }
+  return path;
+}
+
+// The photograph, and over it the edges as measured and as corrected; false without scene.
+mustache::data WipeData(const Registration& registration, const ReportInput& input) {
   const ReportOptions& options = input.options;
-  const Photograph* photograph = input.scene && options.draw_edges
+  const Photograph* photograph = input.scene && options.find_edges
                                      ? FindUsablePhotograph(*input.scene, registration.name)
                                      : nullptr;
   if (!photograph) return false;
-  const Image8 picture = ShrunkPicture(ReadSrgb8(photograph->image_file), options.picture_width_px);
-  const auto draw = [&](const Camera& camera, bool is_corrected) {
-    const Camera resized = ResizedCamera(camera, picture.width, picture.height);
-    return PictureData(options.draw_edges(picture, resized, is_corrected), picture.width);
+  mustache::data wipe = PictureData(
+      ReadSrgb8(photograph->image_file), options.picture_width_px, input.photograph_bytes);
+  const int width_px = std::stoi(wipe["width"].string_value());
+  const int height_px = std::stoi(wipe["height"].string_value());
+  const auto path = [&](const Camera& camera) {
+    return EdgePath(options.find_edges(ResizedCamera(camera, width_px, height_px)));
   };
-  mustache::data pair;
-  pair["measured"] = draw(registration.MeasuredCamera(), false);
-  pair["corrected"] = false;
+  wipe["measured"] = path(registration.MeasuredCamera());
+  wipe["corrected"] = false;
   if (HasCorrection(registration.verdict)) {
-    pair["corrected"] = draw(registration.CorrectedCamera(), true);
+    wipe["corrected"] = mustache::data("path", path(registration.CorrectedCamera()));
   }
-  return pair;
+  return wipe;
 }
 
 // The photograph as overlays/ has it; false if it has not.
 mustache::data OverlayData(const Registration& registration, const ReportInput& input) {
   const fs::path overlay = input.folder / "overlays" / (registration.name + ".jpg");
   if (!fs::exists(overlay)) return false;
-  return PictureData(ReadSrgb8(overlay), 2 * input.options.picture_width_px);
+  return PictureData(ReadSrgb8(overlay), input.options.picture_width_px, input.photograph_bytes);
 }
 
 // One number of the tag, in `site`; moved: corrected less measured.
@@ -133,9 +148,10 @@ mustache::data PhotographData(const Registration& registration, const ReportInpu
     data["remarks"] = mustache::data("reasons", TextListData(registration.reasons));
   }
   const bool is_readable = registration.verdict != Verdict::kUnreadable;
-  data["pair"] = is_readable ? PairData(registration, input) : false;
-  const bool has_pair = !data["pair"].is_false();
-  data["overlay"] = is_readable && !has_pair ? OverlayData(registration, input) : false;
+  data["in_words"] = CorrectionInWords(registration, input.unit);
+  data["wipe"] = is_readable ? WipeData(registration, input) : false;
+  const bool has_wipe = !data["wipe"].is_false();
+  data["overlay"] = is_readable && !has_wipe ? OverlayData(registration, input) : false;
   data["numbers"] = NumbersData(registration, input);
   return data;
 }

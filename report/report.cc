@@ -21,6 +21,11 @@ mustache::data PageData(const ReportInput& input) {
   mustache::data page;
   page["title"] = input.options.title;
   page["style"] = kReportStyle;
+  page["script"] = kReportScript;
+  page["plan"] = PlanData(input);
+  page["next_steps"] = NextStepsData(input);
+  page["model"] = ModelData(input);
+  page["provenance"] = ProvenanceData(input);
   page["unit"] = input.unit;
   page["face_row"] =
       mustache::data(mustache::partial([] { return std::string(kFaceRowTemplate); }));
@@ -42,6 +47,7 @@ mustache::data PageData(const ReportInput& input) {
 
 void ReportOptions::Check() const {
   CheckFromTo(picture_width_px, 16, 10000, "report options: picture_width_px");
+  CheckFromTo(max_megabytes, 1, 1000, "report options: max_megabytes");
 }
 
 std::string MakeReport(const std::filesystem::path& out_folder,

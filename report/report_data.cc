@@ -72,7 +72,8 @@ mustache::data NewViewsData(const ReportInput& input) {
   if (pictures.empty() && films.empty()) return false;
   mustache::list stills;
   for (const fs::path& picture : pictures) {
-    mustache::data still = PictureData(ReadSrgb8(picture), 2 * input.options.picture_width_px);
+    mustache::data still =
+        PictureData(ReadSrgb8(picture), input.options.picture_width_px, input.still_bytes);
     still["name"] = picture.stem().string();
     stills.push_back(std::move(still));
   }

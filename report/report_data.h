@@ -13,6 +13,17 @@ namespace groundglass {
 
 // Of the heading: how many photographs have which verdict.
 kainjow::mustache::data CountsData(const ReportInput& input);
+// The stations from above: as written, as corrected, with error ellipses.
+kainjow::mustache::data PlanData(const ReportInput& input);
+// What a person could do next, most useful first; false if nothing is left.
+kainjow::mustache::data NextStepsData(const ReportInput& input);
+// How much of what is seen each photograph shows. Error if coverage.json does not hold it.
+kainjow::mustache::data ProvenanceData(const ReportInput& input);
+// The textured model to be turned in the page, small enough for it; false if there is none.
+kainjow::mustache::data ModelData(const ReportInput& input);
+// What was corrected, in a sentence: "Stood 1.3 ft further east, looked 0.4° higher, compared with
+// the field notes." Empty where nothing was. unit: as ReportInput has it.
+std::string CorrectionInWords(const Registration& registration, const std::string& unit);
 // Of the heading: number and noun.
 kainjow::mustache::data WarningCountData(const ReportInput& input);
 // Stills and films of renders/.

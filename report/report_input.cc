@@ -13,7 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kManyPhotographs = 40;
+// Shares of the page's weight that pictures may take, as JPEG: Base64 adds a third.
+constexpr double kPhotographsShare = 0.42;
+constexpr double kStillsShare = 0.08;
+constexpr size_t kUsualStills = 8;
 
 std::optional<nlohmann::json> ReadJsonIfThere(const fs::path& file) {
   if (!fs::exists(file)) return std::nullopt;
@@ -49,9 +52,11 @@ ReportInput ReadReportInput(const fs::path& folder,
     const fs::path named = scene ? scene->folder : folder;
     input.options.title = fs::weakly_canonical(named).filename().string();
   }
-  if (input.registrations && input.registrations->size() > kManyPhotographs) {
-    input.options.picture_width_px = std::max(1, options.picture_width_px / 2);
-  }
+  const double max_bytes = 1e6 * options.max_megabytes;
+  const size_t num_photographs = input.registrations ? input.registrations->size() : 0;
+  input.photograph_bytes = static_cast<size_t>(
+      kPhotographsShare * max_bytes / static_cast<double>(std::max<size_t>(1, num_photographs)));
+  input.still_bytes = static_cast<size_t>(kStillsShare * max_bytes / kUsualStills);
   return input;
 }
 

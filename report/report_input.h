@@ -19,8 +19,11 @@ namespace groundglass {
 struct ReportInput {
   std::filesystem::path folder;
   const Scene* scene = nullptr;
-  ReportOptions options;  // with a title, and pictures of the width to be used
-  std::string unit;       // of lengths, as it is written behind a number: " ft"
+  ReportOptions options;  // with a title
+  // What one photograph, and one picture from a new viewpoint, may weigh.
+  size_t photograph_bytes = 0;
+  size_t still_bytes = 0;
+  std::string unit;  // of lengths, as it is written behind a number: " ft"
   std::optional<std::vector<Registration>> registrations;
   std::vector<ModelError> model_errors;
   TieUse ties;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/camera.h"
+#include "scene/orthographic_view.h"
 #include "scene/polygon_model.h"
 #include "scene/visibility.h"
 
@@ -56,6 +57,13 @@ std::vector<VisibleSpan> FindVisibleSpans(const PolygonModel& model,
                                           const std::vector<ModelEdge>& edges,
                                           const Visibility& visibility,
                                           const Camera& camera,
+                                          double margin_px,
+                                          const FeatureEdgeOptions& options = {});
+// The same by parallel rays. What lies before view.near_depth hides nothing.
+std::vector<VisibleSpan> FindVisibleSpans(const PolygonModel& model,
+                                          const std::vector<ModelEdge>& edges,
+                                          const Visibility& visibility,
+                                          const OrthographicView& view,
                                           double margin_px,
                                           const FeatureEdgeOptions& options = {});
 

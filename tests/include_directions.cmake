@@ -13,13 +13,15 @@ set(may_include_register scene)
 set(may_include_ask scene register)
 set(may_include_invrender scene)
 set(may_include_viewer scene)
+set(may_include_drawing scene viewer)
+set(may_include_exchange scene)
 set(may_include_report scene)
 set(may_include_pipeline scene calibrate register invrender viewer report)
 set(may_include_datasets-synthetic scene)
 set(may_include_evaluate scene calibrate register invrender viewer datasets-synthetic)
-set(may_include_cli scene calibrate register ask invrender viewer report pipeline
-    datasets-synthetic evaluate)
-set(rooms scene calibrate register ask invrender viewer report pipeline datasets-synthetic evaluate cli)
+set(may_include_cli scene calibrate register ask invrender viewer drawing exchange report pipeline datasets-synthetic
+    evaluate)
+set(rooms scene calibrate register ask invrender viewer drawing exchange report pipeline datasets-synthetic evaluate cli)
 
 # The floors of a room, lowest first: a file includes its own floor and those before it; files that
 # stand in the room itself are above them all, but in scene, whose vocabulary all its formats speak.
@@ -91,12 +93,13 @@ set(owners_stb "\\.cc$")
 set(owners_sys "\\.cc$")
 # The same for headers without a folder; any other such header is C++'s or the system's.
 set(bare_third_parties tiny_gltf.h stb_image.h stb_image_write.h jpeglib.h jerror.h utf8proc.h
-    lcms2.h sqlite3.h)
+    lcms2.h sqlite3.h tiffio.h)
 set(owners_tiny_gltf.h "^scene/formats/(gltf_read|gltf_write|own_tiny_gltf|.*_io)\\.cc$")
 set(owners_jpeglib.h "^scene/formats/jpeg_file\\.cc$")
 set(owners_jerror.h "^scene/formats/jpeg_file\\.cc$")
 set(owners_utf8proc.h "^scene/formats/text_encoding\\.cc$")
 set(owners_sqlite3.h "^register/ties/colmap_database\\.cc$")
+set(owners_tiffio.h "^drawing/tiff_writer\\.cc$")
 set(owners_lcms2.h "^scene/formats/colour_profile\\.cc$")
 set(owners_stb_image.h "^NOBODY$")        # OpenImageIO reads and writes images
 set(owners_stb_image_write.h "^NOBODY$")

@@ -5,6 +5,7 @@
 #include "viewer/pinhole_frame.h"
 #include "viewer/shaders.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -23,14 +24,6 @@ Colouring ChooseColouring(const RenderOptions& options, const RenderBatch& batch
   return options.anisotropy > 1 ? kTexturedAlongSight : kTexturedFaces;
 }
 
-Eigen::Matrix4f ClipFromLocal(const RenderMesh& mesh, const Camera& pinhole) {
-  const DepthRange range = FindDepthRange(mesh, pinhole);
-  Eigen::Matrix4d cam_from_local = Eigen::Matrix4d::Identity();
-  cam_from_local.topLeftCorner<3, 3>() = pinhole.cam_from_world.rotation;
-  cam_from_local.topRightCorner<3, 1>() = pinhole.cam_from_world * mesh.origin_in_world;
-  return (ClipFromCam(pinhole, range.near_depth, range.far_depth) * cam_from_local).cast<float>();
-}
-
 Eigen::Vector3f SunDirection(const RenderOptions& options) {
   const double bearing = RadiansFromDegrees(options.sun_bearing_deg);
   const double height = RadiansFromDegrees(options.sun_height_deg);
@@ -41,6 +34,42 @@ Eigen::Vector3f SunDirection(const RenderOptions& options) {
 }
 
 }  // namespace
+
+Eigen::Matrix4f ClipFromLocal(const RenderMesh& mesh, const Camera& pinhole) {
+  const DepthRange range = FindDepthRange(mesh, pinhole);
+  Eigen::Matrix4d cam_from_local = Eigen::Matrix4d::Identity();
+  cam_from_local.topLeftCorner<3, 3>() = pinhole.cam_from_world.rotation;
+  cam_from_local.topRightCorner<3, 1>() = pinhole.cam_from_world * mesh.origin_in_world;
+  return (ClipFromCam(pinhole, range.near_depth, range.far_depth) * cam_from_local).cast<float>();
+}
+
+Eigen::Matrix4f ClipFromLocal(const RenderMesh& mesh, const OrthographicView& view) {
+  double nearest = 1e300;
+  double farthest = -1e300;
+  for (const RenderVertex& vertex : mesh.vertices) {
+    const double depth = view.FromWorld(vertex.position.cast<double>() + mesh.origin_in_world).z();
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  // A little more than the model, unless less is asked for; and never nothing.
+  const double slack = 1e-3 * std::max(1e-6, farthest - nearest);
+  nearest = std::max(nearest - slack, view.near_depth);
+  farthest = std::max(std::min(farthest + slack, view.far_depth), nearest + slack);
+  Eigen::Matrix4d clip_from_world = Eigen::Matrix4d::Zero();
+  const double per_x = 2 / (view.width_px * view.pixel_size);
+  const double per_y = 2 / (view.height_px * view.pixel_size);
+  const double per_depth = 2 / (farthest - nearest);
+  const Eigen::Vector3d offset = mesh.origin_in_world - view.corner_in_world;
+  clip_from_world.row(0) << per_x * view.right_in_world.transpose(),
+      per_x * view.right_in_world.dot(offset) - 1;
+  clip_from_world.row(1) << per_y * view.down_in_world.transpose(),
+      per_y * view.down_in_world.dot(offset) - 1;
+  const Eigen::Vector3d forward = view.ForwardInWorld();
+  clip_from_world.row(2) << per_depth * forward.transpose(),
+      per_depth * (forward.dot(offset) - nearest) - 1;
+  clip_from_world(3, 3) = 1;
+  return clip_from_world.cast<float>();
+}
 
 FaceDrawing::FaceDrawing(const GlFunctions& gl) : gl_(gl) {
   static_assert(kColourings.size() == std::tuple_size_v<decltype(face_programs_)>);
@@ -54,10 +83,9 @@ FaceDrawing::FaceDrawing(const GlFunctions& gl) : gl_(gl) {
 }
 
 void FaceDrawing::DrawFaces(const UploadedModel& model,
-                            const Camera& pinhole,
+                            const Eigen::Matrix4f& clip_from_local,
                             const RenderOptions& options) const {
   const Eigen::Vector3f sun = SunDirection(options);
-  const Eigen::Matrix4f clip_from_local = ClipFromLocal(model.mesh, pinhole);
   gl_.BindVertexArray(model.vertex_array.Name());
   gl_.Enable(GL_DEPTH_TEST);
   gl_.ActiveTexture(GL_TEXTURE0);
@@ -74,9 +102,9 @@ void FaceDrawing::DrawFaces(const UploadedModel& model,
   gl_.Disable(GL_DEPTH_TEST);
 }
 
-void FaceDrawing::DrawLabels(const UploadedModel& model, const Camera& pinhole) const {
+void FaceDrawing::DrawLabels(const UploadedModel& model,
+                             const Eigen::Matrix4f& clip_from_local) const {
   label_program_.Use();
-  const Eigen::Matrix4f clip_from_local = ClipFromLocal(model.mesh, pinhole);
   gl_.UniformMatrix4fv(
       label_program_.Uniform("clip_from_local"), 1, GL_FALSE, clip_from_local.data());
   gl_.BindVertexArray(model.vertex_array.Name());

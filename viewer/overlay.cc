@@ -119,14 +119,15 @@ Image8 DrawOverlay(const Image8& photograph_srgb8,
       photograph_srgb8, model, edges, visibility, OverlayCameras{&measured, corrected});
 }
 
-std::function<Image8(const Image8& photograph_srgb8, const Camera& camera, bool is_corrected)>
-MakeEdgeDrawing(const PolygonModel& model) {
+std::function<std::vector<std::vector<Eigen::Vector2d>>(const Camera& camera)> MakeEdgeFinding(
+    const PolygonModel& model) {
   const auto visibility = std::make_shared<const Visibility>(model);
-  return [&model, visibility, edges = FindModelEdges(model)](
-             const Image8& photograph_srgb8, const Camera& camera, bool is_corrected) {
-    const OverlayCameras cameras =
-        is_corrected ? OverlayCameras{nullptr, &camera} : OverlayCameras{&camera, nullptr};
-    return DrawOverlay(photograph_srgb8, model, edges, *visibility, cameras);
+  return [&model, visibility, edges = FindModelEdges(model)](const Camera& camera) {
+    std::vector<std::vector<Eigen::Vector2d>> lines;
+    for (const VisibleSpan& span : FindVisibleSpans(model, edges, *visibility, camera, 0)) {
+      lines.push_back(ProjectSpan(camera, span.start_in_world, span.end_in_world));
+    }
+    return lines;
   };
 }
 

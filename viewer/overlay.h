@@ -8,6 +8,8 @@
 #include "scene/polygon_model.h"
 #include "scene/visibility.h"
 
+#include <Eigen/Dense>
+
 #include <functional>
 #include <vector>
 
@@ -35,9 +37,10 @@ Image8 DrawOverlay(const Image8& photograph_srgb8,
                    const Visibility& visibility,
                    const OverlayCameras& cameras);
 
-// A function that draws one model's edges over photographs of one camera each, measured or
-// corrected. It holds what is visible from where, and the model must outlive it.
-std::function<Image8(const Image8& photograph_srgb8, const Camera& camera, bool is_corrected)>
-MakeEdgeDrawing(const PolygonModel& model);
+// A function that finds one model's edges as a camera sees them, hidden ones removed: lines of
+// image points, px, bent as the lens bends them. It holds what is visible from where, and the model
+// must outlive it.
+std::function<std::vector<std::vector<Eigen::Vector2d>>(const Camera& camera)> MakeEdgeFinding(
+    const PolygonModel& model);
 
 }  // namespace groundglass

@@ -123,14 +123,11 @@ struct Renderer::Impl {
   }
 
   // Faces on their ground into `drawn`, one sample for each of its pixels.
-  void DrawModel(const Camera& pinhole, const RenderOptions& options) {
+  template <typename View>  // a pinhole camera, or parallel rays
+  void DrawModel(const View& view, const RenderOptions& options) {
     const auto fit = [&](RenderTarget& target, int multisamples) {
-      FitTarget(gl,
-                target,
-                pinhole.width_px,
-                pinhole.height_px,
-                multisamples,
-                TargetKind::kColourAndDepth);
+      FitTarget(
+          gl, target, view.width_px, view.height_px, multisamples, TargetKind::kColourAndDepth);
     };
     const bool multi = options.multisamples > 1;
     fit(drawn, 1);
@@ -141,8 +138,32 @@ struct Renderer::Impl {
     const float clear_depth = 1;
     gl.ClearBufferfv(GL_COLOR, 0, clear_colour);
     gl.ClearBufferfv(GL_DEPTH, 0, &clear_depth);
-    if (options.mode != DrawMode::kWireframe) face_drawing.DrawFaces(uploaded, pinhole, options);
+    if (options.mode != DrawMode::kWireframe) {
+      face_drawing.DrawFaces(uploaded, ClipFromLocal(uploaded.mesh, view), options);
+    }
     if (multi) AverageSamples(gl, multisampled, drawn);
+  }
+
+  // Each pixel's face, from 1.
+  template <typename View>
+  std::vector<GLuint> DrawLabels(const View& view) {
+    FitTarget(gl, labels, view.width_px, view.height_px, 1, TargetKind::kLabelsAndDepth);
+    BindTarget(gl, labels);
+    const GLuint no_face[4] = {0, 0, 0, 0};
+    const float clear_depth = 1;
+    gl.ClearBufferuiv(GL_COLOR, 0, no_face);
+    gl.ClearBufferfv(GL_DEPTH, 0, &clear_depth);
+    face_drawing.DrawLabels(uploaded, ClipFromLocal(uploaded.mesh, view));
+    return ReadLabels(gl, labels);
+  }
+
+  void CheckFrame(const OrthographicView& view) const {
+    if (view.width_px < 1 || view.height_px < 1 || view.width_px > max_frame_px ||
+        view.height_px > max_frame_px) {
+      throw Error("viewer: a picture of " + std::to_string(view.width_px) + " x " +
+                  std::to_string(view.height_px) + " cannot be drawn at once; from 1 to " +
+                  std::to_string(max_frame_px) + " px each way can");
+    }
   }
 
   // The target that holds the camera's own frame: `drawn`, or what is made of it.
@@ -203,18 +224,30 @@ Image8 Renderer::Render(const Camera& camera, const RenderOptions& options) {
 
 Image16 Renderer::RenderLabels(const Camera& camera) {
   Impl& impl = *impl_;
-  const GlFunctions& gl = impl.gl;
   impl.context->MakeCurrent();
   const PinholeFrame frame = impl.FrameOf(camera, 1);
-  const Camera& pinhole = frame.pinhole;
-  FitTarget(gl, impl.labels, pinhole.width_px, pinhole.height_px, 1, TargetKind::kLabelsAndDepth);
-  BindTarget(gl, impl.labels);
-  const GLuint no_face[4] = {0, 0, 0, 0};
-  const float clear_depth = 1;
-  gl.ClearBufferuiv(GL_COLOR, 0, no_face);
-  gl.ClearBufferfv(GL_DEPTH, 0, &clear_depth);
-  impl.face_drawing.DrawLabels(impl.uploaded, pinhole);
-  return LabelsInFrame(ReadLabels(gl, impl.labels), frame, camera);
+  return LabelsInFrame(impl.DrawLabels(frame.pinhole), frame, camera);
+}
+
+Image8 Renderer::Render(const OrthographicView& view, const RenderOptions& options) {
+  options.Check();
+  Impl& impl = *impl_;
+  impl.CheckFrame(view);
+  impl.context->MakeCurrent();
+  impl.DrawModel(view, options);
+  return ReadPicture(impl.gl, impl.drawn, options.background == Background::kTransparent);
+}
+
+Image16 Renderer::RenderLabels(const OrthographicView& view) {
+  Impl& impl = *impl_;
+  impl.CheckFrame(view);
+  impl.context->MakeCurrent();
+  const std::vector<GLuint> drawn = impl.DrawLabels(view);
+  Image16 labels(view.width_px, view.height_px, 1);
+  std::transform(drawn.begin(), drawn.end(), labels.values.begin(), [](GLuint label) {
+    return static_cast<uint16_t>(label);
+  });
+  return labels;
 }
 
 Image8 Render(const TexturedModel& model, const Camera& camera, const RenderOptions& options) {

@@ -4,6 +4,7 @@
 
 #include "scene/camera.h"
 #include "scene/image.h"
+#include "scene/orthographic_view.h"
 #include "scene/textured_model.h"
 
 #include <Eigen/Dense>
@@ -69,6 +70,11 @@ class Renderer {
   // The face that each pixel's centre shows, from 1; 0 where there is none, or a face's back: as
   // Visibility::FaceLabels but for face borders.
   Image16 RenderLabels(const Camera& camera);
+
+  // The same by parallel rays. options.supersampling and edges are not heeded, and there is no sky.
+  // Parts of a view (OrthographicView::Part) put side by side are the whole.
+  Image8 Render(const OrthographicView& view, const RenderOptions& options = {});
+  Image16 RenderLabels(const OrthographicView& view);
 
   // What could not be kept ("texture page 1 is shown at 8192 x 4096 in place of 16384 x 8192").
   const std::vector<std::string>& Warnings() const;

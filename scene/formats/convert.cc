@@ -121,10 +121,8 @@ ConvertResult ConvertColmapToViews(const fs::path& input,
   return {Count(cameras.size(), "view file") + " in " + output.string(), warnings};
 }
 
-ConvertResult ConvertViewsToColmap(const fs::path& input,
-                                   const fs::path& output,
-                                   const fs::path& images) {
-  ConvertResult result;
+ViewCameras ReadViewCameras(const fs::path& folder, const fs::path& images) {
+  ViewCameras result;
   std::error_code error;
   if (!fs::is_directory(images, error)) {
     throw Error(images, "no such folder of images, which tell the photographs' sizes");
@@ -136,13 +134,12 @@ ConvertResult ConvertViewsToColmap(const fs::path& input,
     image_names.push_back({names[i], image_paths[i]});
   }
   std::vector<fs::path> views;
-  for (const fs::directory_entry& entry : fs::directory_iterator(input)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".view") views.push_back(entry.path());
   }
   std::sort(views.begin(), views.end(), [](const fs::path& a, const fs::path& b) {
     return NaturalLess(a.stem().string(), b.stem().string());
   });
-  std::vector<NamedCamera> cameras;
   for (const fs::path& view : views) {
     const ViewTag tag = ReadView(view);
     const std::optional<size_t> found = FindPhotograph(view.stem().string(), image_names);
@@ -151,12 +148,19 @@ ConvertResult ConvertViewsToColmap(const fs::path& input,
       continue;
     }
     const ImageSize size = ReadImageSize(images / image_paths[*found]);
-    cameras.push_back({image_paths[*found], CameraFromTag(tag, size.width, size.height)});
+    result.cameras.push_back({image_paths[*found], CameraFromTag(tag, size.width, size.height)});
   }
-  if (cameras.empty()) throw Error(input, "no view file here has an image");
-  WriteColmapModel(output, cameras);
-  result.summary = Count(cameras.size(), "camera") + " in " + output.string();
+  if (result.cameras.empty()) throw Error(folder, "no view file here has an image");
   return result;
+}
+
+ConvertResult ConvertViewsToColmap(const fs::path& input,
+                                   const fs::path& output,
+                                   const fs::path& images) {
+  ViewCameras views = ReadViewCameras(input, images);
+  WriteColmapModel(output, views.cameras);
+  return {Count(views.cameras.size(), "camera") + " in " + output.string(),
+          std::move(views.warnings)};
 }
 
 }  // namespace groundglass

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/formats/colmap_io.h"
 #include "scene/formats/model_io.h"
 
 #include <filesystem>
@@ -33,8 +34,16 @@ ConvertResult ConvertColmapToViews(const std::filesystem::path& input,
                                    const std::filesystem::path& output,
                                    double lookat_distance);
 
-// A folder of view files to a COLMAP text model. The sizes and names of the images come from
-// `images`, matched by name, in sub-folders too.
+// The cameras of a folder of view files. The sizes and names of the images come from `images`,
+// matched by name, in sub-folders too; a warning for each view that has none, an Error if none has.
+struct ViewCameras {
+  std::vector<NamedCamera> cameras;
+  std::vector<std::string> warnings;
+};
+ViewCameras ReadViewCameras(const std::filesystem::path& folder,
+                            const std::filesystem::path& images);
+
+// The same as a COLMAP text model.
 ConvertResult ConvertViewsToColmap(const std::filesystem::path& input,
                                    const std::filesystem::path& output,
                                    const std::filesystem::path& images);

@@ -3,6 +3,7 @@
 #include "report/report.h"
 
 #include "report/embedded_picture.h"
+#include "report/report_data.h"
 #include "report/report_text.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
@@ -159,6 +160,9 @@ TEST_F(ReportOf, PointsOutFacesThatNobodySees) {
   const std::string html = MakeReport(folder_);
   EXPECT_THAT(html, HasSubstr("62 %"));
   EXPECT_THAT(html, HasSubstr("2 faces are seen by less than half"));
+  EXPECT_THAT(html,
+              HasSubstr("<li>Take a photograph from x 12, y \u22124, z 5 units: it would show 8 "
+                        "units\u00b2 that none shows yet (north).</li>"));
   EXPECT_THAT(html, HasSubstr("<td>12, \u22124, 5</td>"));  // where to stand
   EXPECT_THAT(html, HasSubstr("where none is named, none was found"));
   EXPECT_THAT(html,
@@ -172,9 +176,11 @@ TEST_F(ReportOf, HoldsItsPicturesAndAsksForNothingElse) {
   const std::string html = MakeReport(folder_);
   EXPECT_THAT(html, HasSubstr("alt=\"new view from_the_east\" src=\"data:image/jpeg;base64,/9j/"));
   EXPECT_THAT(html, HasSubstr("alt=\"s1 with the model's edges\""));
-  for (const char* elsewhere : {"http:", "https:", "<script", "<link", "url(", "@import"}) {
+  for (const char* elsewhere : {"http:", "https:", "src=\"/", "url(", "@import", "import("}) {
     EXPECT_THAT(html, Not(HasSubstr(elsewhere)));
   }
+  // What slipped in all the same would be stopped.
+  EXPECT_THAT(html, HasSubstr("default-src 'none'"));
 }
 
 TEST_F(ReportOf, ShowsBeforeAndAfterWhenItHasTheScene) {
@@ -188,12 +194,82 @@ TEST_F(ReportOf, ShowsBeforeAndAfterWhenItHasTheScene) {
   WriteSrgb8(photograph.image_file, MakePlainPage(300, 200, 120, 90, 60));
   scene.photographs = {photograph};
   ReportOptions options;
-  options.draw_edges = MakeEdgeDrawing(scene.model);
+  options.find_edges = MakeEdgeFinding(scene.model);
   const std::string html = MakeReport(folder_, &scene, options);
   EXPECT_THAT(html, HasSubstr("<h1>parish hall</h1>"));
-  EXPECT_THAT(html, HasSubstr("<figcaption>as measured</figcaption>"));
-  EXPECT_THAT(html, HasSubstr("<figcaption>corrected</figcaption>"));
+  EXPECT_THAT(html, HasSubstr("<svg class=\"as_measured\" viewBox=\"0 0 300 200\""));
+  EXPECT_THAT(html, HasSubstr("<svg class=\"as_corrected\" viewBox=\"0 0 300 200\""));
+  EXPECT_THAT(html, HasSubstr("aria-label=\"s1: border between"));
   EXPECT_THAT(html, HasSubstr(" ft"));
+}
+
+TEST_F(ReportOf, SaysWhatWasCorrectedInAPersonsWords) {
+  Registration registration;
+  registration.name = "s1";
+  registration.verdict = Verdict::kAccepted;
+  registration.width_px = 1200;
+  registration.measured.position_in_site = {0, 20, 5};
+  registration.measured.lookat_in_site = {0, 0, 5};
+  registration.corrected = registration.measured;
+  registration.corrected.position_in_site = {1.3, 19.5, 5.01};
+  registration.corrected.lookat_in_site = {1.3, 0, 5.01};
+  registration.corrected.shift_x = 0.009;
+  registration.sigmas.setConstant(0.1);
+  registration.sigmas[kShiftX] = 0.001;
+  registration.prior_sigmas.setConstant(0.5);
+  registration.prior_sigmas[kShiftX] = 0.015;
+  // East and north together; the height's centimetre is a trifle.
+  EXPECT_EQ(CorrectionInWords(registration, " ft"),
+            "Stood 1.3 ft further east and 0.50 ft further north, slide shifted 11 px right, "
+            "compared with the field notes.");
+  registration.corrected = registration.measured;
+  EXPECT_EQ(CorrectionInWords(registration, " ft"),
+            "As the field notes have it, within what they are sure to.");
+}
+
+TEST_F(ReportOf, ThePlanEnlargesCorrectionsAndSaysHowMuch) {
+  WriteRegistrations();
+  const std::string html = MakeReport(folder_);
+  EXPECT_THAT(html, HasSubstr("<svg class=\"plan\""));
+  EXPECT_THAT(html, HasSubstr("aria-label=\"s1, accepted\""));
+  EXPECT_THAT(html, HasSubstr("<ellipse "));
+}
+
+TEST_F(ReportOf, WhatNeedsAPersonComesFirst) {
+  WriteRegistrations();
+  WriteCoverage();
+  const std::string html = MakeReport(folder_);
+  const size_t rejected = html.find("<li><a href=\"#s2\">s2</a> is not used");
+  const size_t stand = html.find("<li>Take a photograph from");
+  ASSERT_NE(rejected, std::string::npos);
+  ASSERT_NE(stand, std::string::npos);
+  EXPECT_LT(rejected, stand);
+}
+
+TEST_F(ReportOf, TheTexturesSharesArePhotographByPhotograph) {
+  WriteCoverage();
+  EXPECT_THAT(MakeReport(folder_), HasSubstr("<tr><td>s1</td><td class=\"n\">0.24 units\u00b2"));
+}
+
+TEST_F(ReportOf, ManyPhotographsStayWithinThePagesWeight) {
+  std::vector<Registration> registrations;
+  Image8 noise(400, 267, 3);
+  uint32_t state = 1988;
+  for (uint8_t& value : noise.values)
+    value = static_cast<uint8_t>((state = state * 1664525u + 1013904223u) >> 24);
+  for (int i = 0; i < 60; ++i) {
+    Registration registration;
+    registration.name = "s" + std::to_string(i);
+    registration.width_px = 400;
+    registration.height_px = 267;
+    registration.verdict = Verdict::kAccepted;
+    registrations.push_back(registration);
+    WriteSrgb8(folder_ / "overlays" / (registration.name + ".jpg"), noise);
+  }
+  WriteFileAtomically(folder_ / "registration.json", FormatRegistrations(registrations));
+  ReportOptions options;
+  options.max_megabytes = 1;
+  EXPECT_LT(MakeReport(folder_, nullptr, options).size(), 1000000u);
 }
 
 // What stands between > and < or between quotes must not be markup, whoever wrote it.
@@ -222,7 +298,7 @@ TEST_F(ReportOf, NamesAreTextWhateverTheyHold) {
   EXPECT_THAT(html, Not(HasSubstr(name)));
   EXPECT_THAT(html, HasSubstr("<title>" + safe + " \u2013 Groundglass</title>"));
   EXPECT_THAT(html, HasSubstr("<td><a href=\"#" + safe + "\">" + safe + "</a></td>"));
-  EXPECT_THAT(html, HasSubstr("id=\"" + safe + "\">\n<header><h3>" + safe + "</h3>"));
+  EXPECT_THAT(html, HasSubstr("aria-label=\"" + safe + "\">\n<header><h3>" + safe + "</h3>"));
   EXPECT_THAT(html, HasSubstr("alt=\"" + safe + " with the model's edges\""));
   EXPECT_THAT(html, HasSubstr("alt=\"new view " + safe + "\""));
   EXPECT_THAT(html, HasSubstr("<a href=\"renders/%3Cb%3E%26%22x.mp4\">" + safe + ".mp4</a>"));
@@ -257,9 +333,10 @@ TEST_F(ReportOf, DamagedCoverageIsNamed) {
 }
 
 TEST(ReportOptions, CheckNamesEachField) {
-  [[maybe_unused]] const auto& [title, picture, draw] = ReportOptions();
+  [[maybe_unused]] const auto& [title, picture, find, megabytes] = ReportOptions();
   ExpectCheckNamesEach<ReportOptions>({
       {"picture_width_px", [](auto& o) { o.picture_width_px = 0; }},
+      {"max_megabytes", [](auto& o) { o.max_megabytes = 0; }},
   });
 }
 

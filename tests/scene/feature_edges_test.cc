@@ -150,5 +150,47 @@ TEST(FindVisibleSpans, SpansStayInsideTheFrame) {
   }
 }
 
+// Parallel rays along north, 1 cm a pixel, 6 x 4 m around a box of 4 x 2.
+OrthographicView SouthElevation() {
+  OrthographicView view;
+  view.width_px = 600;
+  view.height_px = 400;
+  view.pixel_size = 0.01;
+  view.corner_in_world = {-1, 0, 3};
+  return view;
+}
+
+TEST(FindVisibleSpans, ByParallelRaysABoxIsARectangleOfItsTrueSize) {
+  PolygonModel model;
+  AddBox(model, {0, 0, 0}, {4, 3, 2});
+  const OrthographicView view = SouthElevation();
+  double length = 0;
+  for (const VisibleSpan& span :
+       FindVisibleSpans(model, FindModelEdges(model), Visibility(model), view, 0)) {
+    EXPECT_NEAR(view.FromWorld(span.start_in_world).z(), 0, 1e-9);  // none of the back
+    length += (span.end_in_world - span.start_in_world).norm();
+  }
+  EXPECT_NEAR(length, 2 * (4 + 2), 0.01);
+}
+
+TEST(FindVisibleSpans, WhatStandsBeforeASectionHidesNothing) {
+  PolygonModel model;
+  AddBox(model, {0, 0, 0}, {4, 3, 2});
+  AddBox(model, {1, -2, 1.5}, {1, 1, 1});  // before a metre of the wall's top
+  OrthographicView view = SouthElevation();
+  const auto top_length = [&] {
+    double length = 0;
+    for (const VisibleSpan& span :
+         FindVisibleSpans(model, FindModelEdges(model), Visibility(model), view, 0)) {
+      const Eigen::Vector3d along = span.end_in_world - span.start_in_world;
+      if (span.start_in_world.y() == 0 && std::abs(along.z()) < 1e-9) length += along.norm();
+    }
+    return length;
+  };
+  EXPECT_NEAR(top_length(), 7, 0.01);
+  view.near_depth = -0.5;
+  EXPECT_NEAR(top_length(), 8, 0.01);
+}
+
 }  // namespace
 }  // namespace groundglass

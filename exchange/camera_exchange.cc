@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "exchange/camera_exchange.h"
+
+#include "exchange/formats.h"
+#include "scene/error.h"
+#include "scene/formats/convert.h"
+#include "scene/formats/given_cameras.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/image_paths.h"
+#include "scene/formats/model_io.h"
+#include "scene/formats/registration_io.h"
+#include "scene/formats/view_io.h"
+#include "scene/text.h"
+
+#include <algorithm>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsOutputFolder(const fs::path& folder) {
+  return fs::exists(folder / "registration.json") && fs::exists(folder / "cameras");
+}
+
+// Unit, place on Earth and the file that other programs take.
+void TakeModel(const fs::path& folder, ExchangeSource& source) {
+  for (const char* name : {"model.obj", "model.glb"}) {
+    if (!fs::exists(folder / name)) continue;
+    const PolygonModel model = ReadModel(folder / name).model;
+    source.unit = model.unit;
+    source.georeference = model.georeference;
+    source.model_file = folder / name;
+    return;
+  }
+}
+
+void TakeColmap(const ColmapFiles& files, ExchangeSource& source) {
+  const ColmapReading reading = ReadColmapImages(files);
+  source.cameras = reading.cameras;
+  source.warnings = files.warnings;
+  const std::vector<std::string> faults = TellColmapFaults(reading.faults);
+  source.warnings.insert(source.warnings.end(), faults.begin(), faults.end());
+}
+
+// A camera for the picture as it is read, and what a format makes of it.
+class CameraPreparation {
+ public:
+  CameraPreparation(const CameraFormat& format, const ExchangeSource& source, const fs::path& out)
+      : format_(format), source_(source), folder_(format.is_folder ? out : out.parent_path()) {}
+
+  ExchangeCamera Prepare(const NamedCamera& named, const std::string& name) {
+    ExchangeCamera each = {name, named.name, named.camera, {}};
+    const fs::path file = source_.images / named.name;
+    const bool is_there = !source_.images.empty() && fs::is_regular_file(file);
+    ImageSize size;
+    if (is_there) {
+      size = ReadImageSize(file);
+      each.camera = FitCamera(named.camera, size, file).camera;
+      each.image_file = fs::absolute(file);
+    }
+    const Camera prepared = PreparedCamera(each.camera, format_.needs);
+    const bool is_changed = !IsSameFrame(prepared, each.camera);
+    if ((is_changed || format_.keeps_pictures) && !is_there) {
+      throw Error(source_.images.empty() ? fs::path(named.name) : file,
+                  std::string("no such picture, and ") + std::string(format_.name) +
+                      (is_changed ? " needs it changed, since it cannot hold its camera as it is"
+                                  : " keeps pictures beside its cameras") +
+                      "; say with --images where the photographs are");
+    }
+    if (is_changed) {
+      WriteChanged(file, prepared, each);
+      ++num_changed_;
+    } else if (format_.keeps_pictures) {
+      WriteCopy(file, size, each);
+    }
+    return each;
+  }
+
+  int NumChanged() const { return num_changed_; }
+
+ private:
+  fs::path PictureFile(const std::string& name) const {
+    return (format_.keeps_pictures ? folder_ : folder_ / "images") / (name + ".jpg");
+  }
+
+  void WriteChanged(const fs::path& file, const Camera& prepared, ExchangeCamera& each) const {
+    const PreparedImage image = PrepareImage(ReadSrgb8(file), each.camera, prepared);
+    each.camera = prepared;
+    each.image_file = fs::absolute(PictureFile(each.name));
+    each.image_name = each.image_file.filename().string();
+    WriteSrgb8(each.image_file, image.srgb8);
+    WriteSrgb8(folder_ / "masks" / (each.name + ".png"), image.mask);
+  }
+
+  // As it is if it is a JPEG that nobody turns.
+  void WriteCopy(const fs::path& file, const ImageSize& size, ExchangeCamera& each) const {
+    each.image_file = fs::absolute(PictureFile(each.name));
+    const std::string ending = LowerCase(file.extension().string());
+    if ((ending == ".jpg" || ending == ".jpeg") && size.orientation == 1) {
+      WriteFileAtomically(each.image_file, ReadTextFile(file));
+    } else {
+      WriteSrgb8(each.image_file, ReadSrgb8(file));
+    }
+    each.image_name = each.image_file.filename().string();
+  }
+
+  const CameraFormat& format_;
+  const ExchangeSource& source_;
+  fs::path folder_;
+  int num_changed_ = 0;
+};
+
+std::vector<std::string> NamesOf(const ExchangeSource& source) {
+  std::vector<std::string> images;
+  for (const NamedCamera& named : source.cameras) images.push_back(named.name);
+  return NamePhotographs(images);
+}
+
+std::string CountOf(size_t number, const std::string& noun) {
+  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::vector<std::string> CameraFormatNames() {
+  std::vector<std::string> names;
+  for (const CameraFormat& format : CameraFormats()) names.emplace_back(format.name);
+  return names;
+}
+
+std::string DescribeCameraFormats() {
+  std::string text;
+  for (const CameraFormat& format : CameraFormats()) {
+    text += "  " + std::string(format.name) + std::string(16 - format.name.size(), ' ') +
+            std::string(format.makes) + (format.read ? "; read too" : "") + "\n";
+  }
+  return text;
+}
+
+bool IsCameraFile(const fs::path& input) {
+  return fs::is_regular_file(input) && FindCameraReader(input) != nullptr;
+}
+
+ExchangeSource ReadExchangeSource(const fs::path& input, const fs::path& images) {
+  ExchangeSource source;
+  source.images = images;
+  if (IsCameraFile(input)) {
+    source.cameras = FindCameraReader(input)->read(input);
+    // Pictures are named as seen from the file.
+    if (images.empty()) source.images = input.parent_path();
+    return source;
+  }
+  if (!fs::is_directory(input)) {
+    throw Error(input,
+                "is no folder of cameras, and none of the files with cameras that are read: "
+                "transforms.json, .fspy, .mlp, Metashape's .xml");
+  }
+  if (IsOutputFolder(input)) {
+    source.registrations = ReadRegistrations(input / "registration.json");
+    TakeColmap(*FindColmapModel(input / "cameras"), source);
+    TakeModel(input, source);
+    return source;
+  }
+  if (const auto files = FindColmapModel(input)) {
+    TakeColmap(*files, source);
+    return source;
+  }
+  if (source.images.empty()) source.images = input / "../images";
+  ViewCameras views = ReadViewCameras(input, source.images);
+  source.cameras = std::move(views.cameras);
+  source.warnings = std::move(views.warnings);
+  return source;
+}
+
+ExchangeResult WriteCamerasAs(std::string_view format_name,
+                              const ExchangeSource& source,
+                              const fs::path& out) {
+  const CameraFormat* format = FindCameraFormat(format_name);
+  if (format == nullptr) throw Error("no format is called " + Quote(format_name));
+  ExchangeScene scene;
+  scene.unit = source.unit;
+  scene.georeference = source.georeference;
+  if (!source.model_file.empty()) scene.model_file = fs::absolute(source.model_file);
+  scene.registrations = source.registrations;
+  const fs::path out_path = fs::absolute(out);
+  const std::vector<std::string> names = NamesOf(source);
+  CameraPreparation preparation(*format, source, out_path);
+  for (size_t i = 0; i < source.cameras.size(); ++i) {
+    scene.cameras.push_back(preparation.Prepare(source.cameras[i], names[i]));
+  }
+  if (format->format) {
+    WriteFilesAtomically(format->format(scene, out_path));
+  } else {
+    std::vector<NamedCamera> cameras;
+    for (const ExchangeCamera& each : scene.cameras) {
+      cameras.push_back({each.image_name, each.camera});
+    }
+    WriteColmapModel(out_path, cameras);
+  }
+  ExchangeResult result;
+  result.warnings = source.warnings;
+  result.summary = CountOf(scene.cameras.size(), "camera") + " in " + out.string();
+  if (preparation.NumChanged() > 0) {
+    result.summary += "; " + CountOf(static_cast<size_t>(preparation.NumChanged()), "picture") +
+                      " resampled, since " + std::string(format->name) +
+                      " cannot hold them as they are";
+  }
+  return result;
+}
+
+ExchangeResult WriteCamerasAsViews(const ExchangeSource& source,
+                                   const fs::path& out,
+                                   double lookat_distance) {
+  const std::vector<std::string> names = NamesOf(source);
+  std::vector<FileToWrite> files;
+  for (size_t i = 0; i < source.cameras.size(); ++i) {
+    const ViewTag tag = TagFromCamera(source.cameras[i].camera, lookat_distance);
+    if (const auto fault = FindTagFault(tag)) {
+      throw Error(source.cameras[i].name + ": " + fault->message);
+    }
+    files.push_back({out / (names[i] + ".view"),
+                     FormatView(tag,
+                                "File: " + names[i] + ".view\nFrom another program's camera of " +
+                                    source.cameras[i].name + ".")});
+  }
+  WriteFilesAtomically(files);
+  return {CountOf(files.size(), "view file") + " in " + out.string(), source.warnings};
+}
+
+}  // namespace groundglass

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+//
+// Metashape's cameras in XML: the frame camera of its manual, appendix C, whose tangential terms
+// P1 and P2 are OpenCV's in the other order.
+#include "exchange/formats.h"
+#include "exchange/rules.h"
+#include "exchange/xml_reader.h"
+#include "scene/error.h"
+#include "scene/text.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+namespace groundglass {
+namespace {
+
+std::string Tag(const char* name, double value) {
+  return std::string("<") + name + ">" + FormatNumber(value + 0.0) + "</" + name + ">";
+}
+
+std::string MetashapeSensor(const ExchangeCamera& each, size_t id) {
+  const Camera& camera = each.camera;
+  const std::string size = "<resolution width=\"" + std::to_string(camera.width_px) +
+                           "\" height=\"" + std::to_string(camera.height_px) + "\"/>";
+  const Eigen::Vector2d center = CenterFromMiddle(camera);
+  return "   <sensor id=\"" + std::to_string(id) + "\" label=\"" + XmlEscaped(each.name) +
+         "\" type=\"frame\">" + size + "<calibration type=\"frame\" class=\"adjusted\">" + size +
+         Tag("f", camera.focal_y_px) + Tag("cx", center.x()) + Tag("cy", center.y()) +
+         Tag("b1", camera.focal_x_px - camera.focal_y_px) + Tag("k1", camera.k1) +
+         Tag("k2", camera.k2) + Tag("k3", camera.k3) + Tag("p1", camera.p2) + Tag("p2", camera.p1) +
+         "</calibration></sensor>\n";
+}
+
+std::string MetashapeCamera(const ExchangeCamera& each, size_t id) {
+  const RigidTransform world_from_cam = Inverse(each.camera.cam_from_world);
+  std::string transform;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      transform += FormatNumber(world_from_cam.rotation(row, column) + 0.0) + " ";
+    }
+    transform += FormatNumber(world_from_cam.translation[row] + 0.0) + " ";
+  }
+  return "   <camera id=\"" + std::to_string(id) + "\" sensor_id=\"" + std::to_string(id) +
+         "\" label=\"" + XmlEscaped(each.image_name) + "\"><transform>" + transform +
+         "0 0 0 1</transform></camera>\n";
+}
+
+double SensorNumber(const std::filesystem::path& file,
+                    const XmlElement& calibration,
+                    const char* name) {
+  const XmlElement* child = calibration.Child(name);
+  if (child == nullptr) return 0;
+  const std::vector<double> numbers = ReadXmlNumbers(file, *child, child->text);
+  if (numbers.size() != 1) throw Error(file, child->line, "expected one number");
+  return numbers[0];
+}
+
+// A sensor's camera without a pose; the adjusted calibration where there is one.
+Camera ReadSensor(const std::filesystem::path& file, const XmlElement& sensor) {
+  const XmlElement* calibration = nullptr;
+  for (const XmlElement& child : sensor.children) {
+    if (child.name != "calibration") continue;
+    if (calibration == nullptr || child.Attribute("class") == "adjusted") calibration = &child;
+  }
+  const XmlElement* size = sensor.Child("resolution");
+  if (calibration == nullptr || size == nullptr) {
+    throw Error(file, sensor.line, "<sensor> has no <calibration> or no <resolution>");
+  }
+  Camera camera;
+  camera.width_px = std::atoi(size->Attribute("width").c_str());
+  camera.height_px = std::atoi(size->Attribute("height").c_str());
+  const auto number = [&](const char* name) { return SensorNumber(file, *calibration, name); };
+  if (number("b2") != 0 || number("k4") != 0) {
+    throw Error(file, calibration->line, "b2 and k4 are no part of our lens; fix them at 0");
+  }
+  camera.focal_y_px = number("f");
+  camera.focal_x_px = number("f") + number("b1");
+  SetCenterFromMiddle({number("cx"), number("cy")}, camera);
+  camera.k1 = number("k1");
+  camera.k2 = number("k2");
+  camera.k3 = number("k3");
+  camera.p1 = number("p2");
+  camera.p2 = number("p1");
+  return camera;
+}
+
+struct MetashapeParts {
+  std::map<std::string, Camera> sensors;  // by id
+  std::vector<const XmlElement*> cameras;
+};
+void CollectParts(const std::filesystem::path& file,
+                  const XmlElement& element,
+                  MetashapeParts& parts) {
+  if (element.name == "sensor") {
+    parts.sensors[element.Attribute("id")] = ReadSensor(file, element);
+    return;
+  }
+  // Without a transform it is not aligned.
+  if (element.name == "camera" && element.Child("transform")) parts.cameras.push_back(&element);
+  for (const XmlElement& child : element.children) CollectParts(file, child, parts);
+}
+
+}  // namespace
+
+std::vector<FileToWrite> FormatMetashape(const ExchangeScene& scene,
+                                         const std::filesystem::path& out) {
+  std::string sensors;
+  std::string cameras;
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    sensors += MetashapeSensor(scene.cameras[i], i);
+    cameras += MetashapeCamera(scene.cameras[i], i);
+  }
+  return {{out,
+           "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<document version=\"1.2.0\">\n"
+           " <chunk label=\"Groundglass\" enabled=\"true\">\n  <sensors>\n" +
+               sensors + "  </sensors>\n  <cameras>\n" + cameras +
+               "  </cameras>\n </chunk>\n</document>\n"}};
+}
+
+std::vector<NamedCamera> ReadMetashape(const std::filesystem::path& file) {
+  const XmlElement root = ReadXml(file);
+  MetashapeParts parts;
+  CollectParts(file, root, parts);
+  std::vector<NamedCamera> cameras;
+  for (const XmlElement* element : parts.cameras) {
+    const auto sensor = parts.sensors.find(element->Attribute("sensor_id"));
+    if (sensor == parts.sensors.end()) {
+      throw Error(file, element->line, "<camera> names a sensor that is not there");
+    }
+    const XmlElement& transform = *element->Child("transform");
+    const std::vector<double> numbers = ReadXmlNumbers(file, transform, transform.text);
+    if (numbers.size() != 16) {
+      throw Error(file, transform.line, "<transform> has not 16 numbers");
+    }
+    RigidTransform world_from_cam;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) {
+        world_from_cam.rotation(row, column) = numbers[static_cast<size_t>(4 * row + column)];
+      }
+      world_from_cam.translation[row] = numbers[static_cast<size_t>(4 * row + 3)];
+    }
+    // A chunk may have a scale of its own; directions have none.
+    world_from_cam.rotation = Eigen::Quaterniond(world_from_cam.rotation /
+                                                 std::cbrt(world_from_cam.rotation.determinant()))
+                                  .normalized()
+                                  .toRotationMatrix();
+    NamedCamera named = {element->Attribute("label"), sensor->second};
+    named.camera.cam_from_world = Inverse(world_from_cam);
+    cameras.push_back(named);
+  }
+  if (cameras.empty()) throw Error(file, "has no aligned <camera>; is it Metashape's?");
+  return cameras;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "exchange/rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+double HalfLongerSide(const Camera& camera) {
+  return std::max(camera.width_px, camera.height_px) / 2.0;
+}
+
+Eigen::Vector2d Middle(const Camera& camera) {
+  return {camera.width_px / 2.0, camera.height_px / 2.0};
+}
+
+Eigen::Vector2d Center(const Camera& camera) { return {camera.center_x_px, camera.center_y_px}; }
+
+void SetCenter(const Eigen::Vector2d& center_px, Camera& camera) {
+  camera.center_x_px = center_px.x();
+  camera.center_y_px = center_px.y();
+}
+
+}  // namespace
+
+Eigen::Matrix4d WorldFromGlCam(const Camera& camera) {
+  Eigen::Matrix4d world_from_gl_cam = Eigen::Matrix4d::Identity();
+  world_from_gl_cam.topLeftCorner<3, 3>() =
+      camera.cam_from_world.rotation.transpose() * GlFromCam();
+  world_from_gl_cam.topRightCorner<3, 1>() = camera.PositionInWorld();
+  return world_from_gl_cam;
+}
+
+void SetPoseFromGlCam(const Eigen::Matrix4d& world_from_gl_cam, Camera& camera) {
+  const Eigen::Matrix3d rotation =
+      GlFromCam() * world_from_gl_cam.topLeftCorner<3, 3>().transpose();
+  // Files have rounded numbers: the nearest rotation.
+  camera.cam_from_world.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  camera.cam_from_world.translation =
+      -(camera.cam_from_world.rotation * world_from_gl_cam.topRightCorner<3, 1>());
+}
+
+Eigen::Vector2d CenterFromMiddle(const Camera& camera) { return Center(camera) - Middle(camera); }
+void SetCenterFromMiddle(const Eigen::Vector2d& from_middle_px, Camera& camera) {
+  SetCenter(Middle(camera) + from_middle_px, camera);
+}
+
+Eigen::Vector2d CenterFromBelow(const Camera& camera) {
+  return {camera.center_x_px, camera.height_px - camera.center_y_px};
+}
+void SetCenterFromBelow(const Eigen::Vector2d& from_below_px, Camera& camera) {
+  SetCenter({from_below_px.x(), camera.height_px - from_below_px.y()}, camera);
+}
+
+Eigen::Vector2d CenterOnImagePlane(const Camera& camera) {
+  const Eigen::Vector2d from_middle = CenterFromMiddle(camera) / HalfLongerSide(camera);
+  return {from_middle.x(), -from_middle.y()};
+}
+void SetCenterOnImagePlane(const Eigen::Vector2d& on_plane, Camera& camera) {
+  SetCenterFromMiddle(HalfLongerSide(camera) * Eigen::Vector2d(on_plane.x(), -on_plane.y()),
+                      camera);
+}
+
+Eigen::Vector2d CenterAsShare(const Camera& camera) {
+  return {camera.center_x_px / camera.width_px, camera.center_y_px / camera.height_px};
+}
+
+Eigen::Vector2d BlenderShift(const Camera& camera) {
+  const Eigen::Vector2d shift = -CenterFromMiddle(camera) / camera.width_px;
+  return {shift.x(), -shift.y() * camera.focal_x_px / camera.focal_y_px};
+}
+
+FieldOfView FieldOfViewOf(const Camera& camera) {
+  const auto angle = [](double px, double focal_px) {
+    return DegreesFromRadians(std::atan(px / focal_px));
+  };
+  return {-angle(camera.center_x_px, camera.focal_x_px),
+          angle(camera.width_px - camera.center_x_px, camera.focal_x_px),
+          -angle(camera.height_px - camera.center_y_px, camera.focal_y_px),
+          angle(camera.center_y_px, camera.focal_y_px)};
+}
+
+}  // namespace groundglass

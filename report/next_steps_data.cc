@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "report/report_data.h"
+#include "report/report_text.h"
+#include "scene/error.h"
+#include "scene/text.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <utility>
+
+namespace groundglass {
+namespace {
+
+using Json = nlohmann::json;
+namespace mustache = kainjow::mustache;
+
+// As many as a person does before coming back to the list.
+constexpr size_t kMostStandpoints = 6;
+constexpr size_t kMostNamedFaces = 4;
+constexpr size_t kMostModelErrors = 3;
+
+struct Step {
+  std::string text;
+  std::string link;  // a photograph's name, to its section; empty for none
+};
+
+// Where several faces could be photographed at once.
+struct Standpoint {
+  Eigen::Vector3d at_in_site = Eigen::Vector3d::Zero();
+  double missing_area = 0;
+  std::vector<std::string> faces;
+};
+
+// A face's standpoint joins another's that is nearer than this share of how far they stand from
+// what they are to show.
+constexpr double kSameStandpoint = 0.25;
+
+std::vector<Standpoint> FindStandpoints(const Json& coverage) {
+  std::vector<Standpoint> standpoints;
+  for (const Json& face : coverage.value("faces", Json::array())) {
+    const Json missing = face.value("missing", Json::object());
+    const auto at = missing.value("stand_at", std::vector<double>());
+    const auto centre = missing.value("centre", std::vector<double>());
+    if (at.size() != 3 || centre.size() != 3) continue;
+    const Eigen::Vector3d at_in_site(at[0], at[1], at[2]);
+    const double distance = (at_in_site - Eigen::Vector3d(centre[0], centre[1], centre[2])).norm();
+    auto standpoint =
+        std::find_if(standpoints.begin(), standpoints.end(), [&](const Standpoint& known) {
+          return (known.at_in_site - at_in_site).norm() < kSameStandpoint * distance;
+        });
+    if (standpoint == standpoints.end()) {
+      standpoint = standpoints.insert(standpoints.end(), Standpoint{at_in_site, 0, {}});
+    }
+    standpoint->missing_area += missing.value("area", 0.0);
+    const std::string name = face.value("name", "");
+    standpoint->faces.push_back(name.empty() ? "face " + std::to_string(face.value("face", 0))
+                                             : name);
+  }
+  std::stable_sort(standpoints.begin(), standpoints.end(), [](const auto& a, const auto& b) {
+    return a.missing_area > b.missing_area;
+  });
+  return standpoints;
+}
+
+Step StandStep(const Standpoint& standpoint, const std::string& unit) {
+  std::string faces;
+  for (size_t i = 0; i < std::min(standpoint.faces.size(), kMostNamedFaces); ++i) {
+    faces += (i == 0 ? "" : ", ") + standpoint.faces[i];
+  }
+  if (standpoint.faces.size() > kMostNamedFaces) {
+    faces += " and " + std::to_string(standpoint.faces.size() - kMostNamedFaces) + " more";
+  }
+  const Eigen::Vector3d& at = standpoint.at_in_site;
+  return {"Take a photograph from x " + FormatRounded(at.x(), 10) + ", y " +
+              FormatRounded(at.y(), 10) + ", z " + FormatRounded(at.z(), 10) + unit +
+              ": it would show " + FormatRounded(standpoint.missing_area, 10) + unit +
+              "\u00b2 that none shows yet (" + faces + ").",
+          ""};
+}
+
+std::string FirstReason(const Registration& registration) {
+  return registration.reasons.empty() ? "" : " " + registration.reasons.front();
+}
+
+void AddPhotographs(const ReportInput& input,
+                    Verdict verdict,
+                    const std::string& words,
+                    std::vector<Step>& steps) {
+  for (const Registration& registration : *input.registrations) {
+    if (registration.verdict != verdict) continue;
+    steps.push_back({words + FirstReason(registration), registration.name});
+  }
+}
+
+}  // namespace
+
+// What can be mended at the desk comes before a walk to the building.
+mustache::data NextStepsData(const ReportInput& input) {
+  std::vector<Step> steps;
+  if (input.registrations) {
+    AddPhotographs(input, Verdict::kUnreadable, "cannot be read: mend its file.", steps);
+    AddPhotographs(
+        input, Verdict::kRejected, "is not used: compare its field notes with the picture.", steps);
+    AddPhotographs(
+        input, Verdict::kReview, "is used at lower weight: look whether the edges fit.", steps);
+  }
+  if (input.coverage) {
+    try {
+      const std::vector<Standpoint> standpoints = FindStandpoints(*input.coverage);
+      for (size_t i = 0; i < std::min(standpoints.size(), kMostStandpoints); ++i) {
+        steps.push_back(StandStep(standpoints[i], input.unit));
+      }
+    } catch (const Json::exception& error) {
+      throw Error(input.folder / "coverage.json",
+                  OneLine(std::string("is not as texturing writes it: ") + error.what()));
+    }
+  }
+  for (size_t i = 0; i < std::min(input.model_errors.size(), kMostModelErrors); ++i) {
+    const ModelError& error = input.model_errors[i];
+    steps.push_back(
+        {"Measure \u201c" + error.name + "\u201d again: " + std::to_string(error.num_photographs) +
+             " photographs see it " + FormatRounded(error.offset_in_world.norm(), error.sigma) +
+             input.unit + " from where the model has it.",
+         ""});
+  }
+  if (steps.empty()) return false;
+  mustache::list list;
+  for (const Step& step : steps) {
+    mustache::data entry;
+    entry["text"] = step.text;
+    entry["photograph"] = false;
+    if (!step.link.empty()) entry["photograph"] = mustache::data("name", step.link);
+    list.push_back(std::move(entry));
+  }
+  return {"list", list};
+}
+
+}  // namespace groundglass

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "drawing/write_drawing.h"
+#include "scene/child_process.h"
+#include "scene/error.h"
+#include "scene/formats/image_io.h"
+#include "scene/formats/view_io.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/viewer/sample_models.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace groundglass {
+namespace {
+
+using ::testing::HasSubstr;
+
+bool IsInstalled(const std::string& program) {
+  try {
+    RunProgram({program, "-v"});
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// A grey wall of 12 m x 8 m with a red window 1.2 m x 2 m, one texel 2 cm; the window is a face of
+// its own in the texture only.
+TexturedModel WallWithWindow() {
+  Image8 page = MakePlainPage(600, 400, 190, 190, 190);
+  for (int y = 150; y < 250; ++y) {
+    for (int x = 200; x < 260; ++x) {
+      page.At(x, y)[0] = 220;
+      page.At(x, y)[1] = page.At(x, y)[2] = 10;
+    }
+  }
+  TexturedModel wall = MakeWall(12, 8, page);
+  wall.model.unit = LengthUnit::kMetre;
+  return wall;
+}
+
+void WritePdf(const std::filesystem::path& stem, const WriteDrawingOptions& options) {
+  const TexturedModel wall = WallWithWindow();
+  Renderer renderer(wall);
+  WriteDrawing(stem, renderer, wall, MakeElevation(wall.model, {0}, "wall"), {}, options);
+}
+
+struct RedBox {
+  int width_px = 0;
+  int height_px = 0;
+};
+RedBox FindRed(const Image8& picture) {
+  int left = picture.width, right = -1, top = picture.height, bottom = -1;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const uint8_t* pixel = picture.At(x, y);
+      // More than half window, in linear light: texels fade into one another.
+      if (pixel[0] < 150 || pixel[1] > 139) continue;
+      left = std::min(left, x);
+      right = std::max(right, x);
+      top = std::min(top, y);
+      bottom = std::max(bottom, y);
+    }
+  }
+  return {right - left + 1, bottom - top + 1};
+}
+
+TEST(PdfScale, AWindowsWidthMeasuredOnTheSheetIsThatOfTheModel) {
+  if (!IsInstalled("pdftoppm")) GTEST_SKIP() << "pdftoppm is not installed";
+  const TemporaryFolder folder;
+  WriteDrawingOptions options;
+  options.kinds = {"pdf"};
+  WritePdf(folder / "wall", options);
+  const std::string out = (folder / "page").string();
+  const ProgramResult result =
+      RunProgram({"pdftoppm", "-r", "254", "-png", "-singlefile", folder / "wall.pdf", out});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  // At 1:50, ten pixels a millimetre: 1.2 m are 24 mm are 240 px.
+  const RedBox window = FindRed(ReadSrgb8(out + ".png"));
+  EXPECT_NEAR(window.width_px, 240, 1);
+  EXPECT_NEAR(window.height_px, 400, 1);
+}
+
+TEST(PdfScale, TheSheetIsAsLargeAsItsDrawingAndMargins) {
+  const TemporaryFolder folder;
+  WriteDrawingOptions options;
+  options.kinds = {"pdf"};
+  options.has_title_block = false;
+  WritePdf(folder / "wall", options);
+  const std::string pdf = ReadTextFile(folder / "wall.pdf");
+  // 12 m and 8 m at 1:50 are 240 mm and 160 mm, with 10 mm on each side.
+  EXPECT_THAT(pdf, HasSubstr("/MediaBox [0 0 737.0079 510.2362]"));
+  EXPECT_THAT(pdf, HasSubstr("/R (1:50)"));
+  if (IsInstalled("qpdf")) {
+    const ProgramResult result = RunProgram({"qpdf", "--check", folder / "wall.pdf"});
+    EXPECT_EQ(result.exit_code, 0) << result.output << result.errors;
+  }
+}
+
+TEST(PdfScale, ALargerSheetThanReadersTakeCountsInLargerUnits) {
+  const TemporaryFolder folder;
+  WriteDrawingOptions options;
+  options.kinds = {"pdf"};
+  options.has_title_block = false;
+  options.scale = 2;
+  options.dpi = 10;
+  WritePdf(folder / "wall", options);
+  // 6,020 mm are 17,064.6 pt.
+  const std::string pdf = ReadTextFile(folder / "wall.pdf");
+  EXPECT_THAT(pdf, HasSubstr("/MediaBox [0 0 14400 "));
+  EXPECT_THAT(pdf, HasSubstr("/UserUnit 1.185"));
+}
+
+}  // namespace
+}  // namespace groundglass
