@@ -2,9 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
-#include "scene/view_tag.h"
-
 #include "exchange/exchange_scene.h"
+#include "scene/view_tag.h"
 
 #include <vector>
 
