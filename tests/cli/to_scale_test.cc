@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace groundglass {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kHall =
+    std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick/model.osu";
+
+TEST(ToScale, ASideIsCalledByTheDirectionThatItFaces) {
+  const TemporaryFolder folder;
+  const ProgramRun run = RunProgram({"render",
+                                     kHall,
+                                     "--elevation",
+                                     "south wall",
+                                     "--scale",
+                                     "1:200",
+                                     "-o",
+                                     folder / "south.svg"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("At 1:200 a pixel of the picture is 20 mm on the building"));
+  EXPECT_THAT(ReadAll(folder / "south.svg"), HasSubstr("<path id=\"OUTLINE\""));
+  EXPECT_THAT(ReadAll(folder / "south.json"), HasSubstr("\"drawing\": \"south\""));
+}
+
+TEST(ToScale, AllSidesGetAFileEach) {
+  const TemporaryFolder folder;
+  const ProgramRun run = RunProgram(
+      {"render", kHall, "--elevation", "all", "--scale", "500", "-o", folder / "hall.dxf"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  for (const char* side : {"north", "east", "south", "west"}) {
+    EXPECT_THAT(ReadAll(folder / ("hall-" + std::string(side) + ".dxf")), HasSubstr("AC1009"));
+  }
+}
+
+TEST(ToScale, WhatCannotBeMeantIsNamed) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "x.tif";
+  const ProgramRun scale =
+      RunProgram({"render", kHall, "--elevation", "south", "--scale", "wide", "-o", out});
+  EXPECT_EQ(scale.status, 2);
+  EXPECT_THAT(scale.err, HasSubstr("is not as 1:50"));
+  const ProgramRun face = RunProgram({"render", kHall, "--elevation", "moat", "-o", out});
+  EXPECT_EQ(face.status, 1);
+  EXPECT_THAT(face.err, HasSubstr("the model's sides are: north"));
+  const ProgramRun section = RunProgram({"render", kHall, "--section", "1,2,3", "-o", out});
+  EXPECT_EQ(section.status, 1);
+  EXPECT_THAT(section.err, HasSubstr("is neither x,y,x,y"));
+  const ProgramRun layers =
+      RunProgram({"render", kHall, "--elevation", "south", "--also", "layers", "-o", out});
+  EXPECT_EQ(layers.status, 1);
+  EXPECT_THAT(layers.err, HasSubstr("layers are made from an output folder"));
+}
+
+TEST(ToScale, CamerasGoToAnotherProgramAndComeBackAsViews) {
+  const TemporaryFolder folder;
+  CopyBrick(folder / "hall", {"s3"});
+  const ProgramRun there =
+      RunProgram({"convert", folder / "hall/views", folder / "c.xml", "--to", "metashape"});
+  EXPECT_EQ(there.status, 0) << there.err;
+  const ProgramRun back = RunProgram({"convert", folder / "c.xml", folder / "views"});
+  EXPECT_EQ(back.status, 0) << back.err;
+  EXPECT_THAT(ReadAll(folder / "views/s3.view"),
+              HasSubstr("From another program's camera of s3.jpg"));
+}
+
+}  // namespace
+}  // namespace groundglass
