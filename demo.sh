@@ -57,4 +57,7 @@ Done. Please look at
   $out/novel/          the textured model from new viewpoints; $PWD/$scene/truth/novel/ has the truth
   $out/model.glb       the textured model, for any glTF viewer
   $out/views/          the corrected tags
+
+A window on it, where there is a display:
+  $groundglass view $out --scene $scene
 END

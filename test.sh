@@ -43,7 +43,7 @@ packages() { if [[ $install == yes ]]; then ./install-packages.sh "$@"; fi; }
 if [[ $preset == format ]]; then
   packages format
   echo "== clang-format"
-  find scene calibrate register ask invrender viewer drawing exchange report pipeline \
+  find scene calibrate register ask session invrender viewer gui drawing exchange report pipeline \
     datasets-synthetic evaluate cli tests -name '*.h' -o -name '*.cc' | sort | xargs clang-format --dry-run -Werror
   echo "The formatting is as .clang-format says."
   exit 0

@@ -210,7 +210,7 @@ Image8 CropAround(const Image8& srgb8,
       const int beside = std::min(std::abs(x - size_px / 2), std::abs(y - size_px / 2));
       if (from_middle < size_px / 16 || from_middle > size_px / 5 || beside > 2) continue;
       const std::array<uint8_t, 3> yellow = {240, 228, 66};
-      for (int c = 0; c < 3; ++c) crop.At(x, y)[c] = beside == 0 ? yellow[c] : 20;
+      for (int c = 0; c < 3; ++c) crop.At(x, y)[c] = beside <= size_px / 160 ? yellow[c] : 20;
     }
   }
   return crop;

@@ -54,6 +54,7 @@ void AddCalibrateCommand(CLI::App& app, int& exit_status);
 void AddRegisterCommand(CLI::App& app, int& exit_status);
 void AddInvrenderCommand(CLI::App& app, int& exit_status);
 void AddRenderCommand(CLI::App& app, int& exit_status);
+void AddViewCommand(CLI::App& app, int& exit_status);
 void AddWhereCommand(CLI::App& app, int& exit_status);
 void AddSynthCommand(CLI::App& app, int& exit_status);
 void AddEvaluateCommand(CLI::App& app, int& exit_status);

@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
   AddRegisterCommand(app, exit_status);
   AddInvrenderCommand(app, exit_status);
   AddRenderCommand(app, exit_status);
+  AddViewCommand(app, exit_status);
   AddWhereCommand(app, exit_status);
   AddSynthCommand(app, exit_status);
   AddEvaluateCommand(app, exit_status);

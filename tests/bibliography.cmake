@@ -9,7 +9,7 @@
 
 cmake_minimum_required(VERSION 3.25)
 
-set(rooms scene calibrate register ask invrender viewer drawing exchange report datasets-synthetic evaluate pipeline cli)
+set(rooms scene calibrate register ask session invrender viewer gui drawing exchange report datasets-synthetic evaluate pipeline cli)
 set(name "[A-Z][A-Za-z]*[a-z]")
 set(others "((, ${name})*,? (and|&) ${name}|,? (and|&) others| et al\\.)?")
 set(venue "([A-Z][A-Za-z. ]*[ ,]+)?")

@@ -8,7 +8,7 @@
 
 cmake_minimum_required(VERSION 3.25)
 
-set(rooms scene calibrate register ask invrender viewer drawing exchange report datasets-synthetic evaluate pipeline cli)
+set(rooms scene calibrate register ask session invrender viewer gui drawing exchange report datasets-synthetic evaluate pipeline cli)
 
 # headings_of(OUT FILE): the anchors of its headings, as GitHub names them.
 function(headings_of out file)

@@ -11,6 +11,8 @@ set(may_include_scene)
 set(may_include_calibrate scene)
 set(may_include_register scene)
 set(may_include_ask scene register)
+set(may_include_session scene register)
+set(may_include_gui scene register ask session viewer)
 set(may_include_invrender scene)
 set(may_include_viewer scene)
 set(may_include_drawing scene viewer)
@@ -19,9 +21,9 @@ set(may_include_report scene)
 set(may_include_pipeline scene calibrate register invrender viewer report)
 set(may_include_datasets-synthetic scene)
 set(may_include_evaluate scene calibrate register invrender viewer datasets-synthetic)
-set(may_include_cli scene calibrate register ask invrender viewer drawing exchange report pipeline datasets-synthetic
+set(may_include_cli scene calibrate register ask session invrender viewer gui drawing exchange report pipeline datasets-synthetic
     evaluate)
-set(rooms scene calibrate register ask invrender viewer drawing exchange report pipeline datasets-synthetic evaluate cli)
+set(rooms scene calibrate register ask session invrender viewer gui drawing exchange report pipeline datasets-synthetic evaluate cli)
 
 # The floors of a room, lowest first: a file includes its own floor and those before it; files that
 # stand in the room itself are above them all, but in scene, whose vocabulary all its formats speak.
@@ -74,12 +76,14 @@ endforeach()
 # Third parties by the first part of their path, and the files (regular expression on the path in
 # the tree) that may include them.
 set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI
-    fmt kainjow nlohmann openssl tbb stb sys)
+    fmt kainjow nlohmann openssl tbb stb sys SDL2 imgui)
 set(owners_Eigen "\\.(h|cc)$")
-set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|report|datasets-synthetic|evaluate)/.*\\.cc$")
+set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|gui|report|datasets-synthetic|evaluate)/.*\\.cc$")
 set(owners_OpenImageIO "^(scene/formats/(image_(io|write|kind)|open_image|ignore_mask|photograph_metadata)|invrender/.*)\\.cc$")
 set(owners_embree3 "^scene/visibility\\.cc$")
-set(owners_ceres "^(calibrate|register|invrender)/.*\\.cc$")
+set(owners_ceres "^(calibrate|register|session|invrender)/.*\\.cc$")
+set(owners_SDL2 "^gui/.*\\.cc$")
+set(owners_imgui "^gui/.*\\.cc$")
 set(owners_apriltag "^calibrate/.*\\.cc$")
 set(owners_GL "^viewer/.*\\.cc$")
 set(owners_EGL "^viewer/.*\\.cc$")

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "gui/app.h"
+
+#include <imgui/imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+constexpr double kClickPx = 4;  // a press that moves less is a click
+
+}  // namespace
+
+// Whether something stands before the picture and the plan. The panels are beside them, so what the
+// mouse is over follows from where it is, from the first press on.
+bool App::IsCovered() const {
+  return shows_help_ || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId);
+}
+
+void App::HandleMouseButton(const SDL_MouseButtonEvent& button) {
+  const Eigen::Vector2d at = pane_.Inside(button.x, button.y);
+  mouse_px_ = at;
+  if (button.type == SDL_MOUSEBUTTONUP) {
+    if (gesture_ == Gesture::kRough) {
+      rough_end_ = OnPlan(button.x, button.y);
+      ReleaseOnPlan();
+      gesture_ = Gesture::kNone;
+      return;
+    }
+    if (CanTag() && button.button == SDL_BUTTON_LEFT) ReleaseInTag(at);
+    const bool is_click = !has_moved_ && gesture_ == Gesture::kOrbit;
+    if (is_click && mode_ == WindowMode::kLook) {
+      const auto pick = PickFace(visibility_, PaneCamera(), at);
+      picked_face_ = pick ? std::optional<int>(pick->face) : std::nullopt;
+    }
+    gesture_ = Gesture::kNone;
+    return;
+  }
+  if (IsCovered()) return;
+  if (plan_.Holds(button.x, button.y)) PressOnPlan(button.x, button.y);
+  if (!pane_.Holds(button.x, button.y)) return;
+  has_moved_ = false;
+  pressed_px_ = at;
+  const bool shift = (SDL_GetModState() & KMOD_SHIFT) != 0;
+  if (mode_ == WindowMode::kAsk && button.button == SDL_BUTTON_LEFT) {
+    AskAt(at, shift);
+    return;
+  }
+  if (CanTag() && button.button == SDL_BUTTON_LEFT) {
+    PressInTag(at);
+    return;
+  }
+  if (IsInside()) {
+    gesture_ = Gesture::kMovePhotograph;
+    return;
+  }
+  about_in_world_ = PointUnder(at);
+  depth_ = (about_in_world_ - eye_.position_in_world).dot(eye_.Forward());
+  const bool pans = button.button == SDL_BUTTON_MIDDLE || shift;
+  gesture_ = button.button == SDL_BUTTON_RIGHT || is_walking_ ? Gesture::kLook
+             : pans                                           ? Gesture::kPan
+                                                              : Gesture::kOrbit;
+  if (button.clicks == 2 && button.button == SDL_BUTTON_LEFT) {
+    eyes_before_.push_back(eye_);
+    MoveEye(Dolly(eye_, about_in_world_, 3));
+  }
+}
+
+void App::HandleMouseMotion(const SDL_MouseMotionEvent& motion) {
+  const Eigen::Vector2d at = pane_.Inside(motion.x, motion.y);
+  const Eigen::Vector2d by = at - mouse_px_;
+  mouse_px_ = at;
+  if ((at - pressed_px_).norm() > kClickPx) has_moved_ = true;
+  if (wipes_ && IsInside()) governor_.Moved(NowMs());
+  switch (gesture_) {
+    case Gesture::kOrbit:
+      MoveEye(Orbit(eye_, about_in_world_, by.x(), by.y()));
+      break;
+    case Gesture::kPan:
+      MoveEye(Pan(eye_, depth_, by.x(), by.y(), pane_.width));
+      break;
+    case Gesture::kLook:
+      MoveEye(LookAround(eye_, by.x(), by.y()));
+      break;
+    case Gesture::kRough:
+      rough_end_ = OnPlan(motion.x, motion.y);
+      break;
+    case Gesture::kMovePhotograph:
+      place_.origin_px += by;
+      break;
+    case Gesture::kPin:
+    case Gesture::kNewPin:
+    case Gesture::kLine:
+      governor_.Moved(NowMs());
+      DragInTag(at, by, (SDL_GetModState() & KMOD_SHIFT) != 0);
+      break;
+    default:
+      break;
+  }
+}
+
+void App::HandleWheel(const SDL_MouseWheelEvent& wheel) {
+  const bool is_in_pane = mouse_px_.x() >= 0 && mouse_px_.y() >= 0 && mouse_px_.x() < pane_.width &&
+                          mouse_px_.y() < pane_.height;
+  if (IsCovered() || !is_in_pane) return;
+  if (IsInside()) {
+    ZoomPhotograph(mouse_px_, std::pow(1.2, wheel.y));
+  } else if (gesture_ == Gesture::kLook) {
+    fly_speed_ *= std::pow(1.25, wheel.y);
+  } else {
+    MoveEye(Dolly(eye_, PointUnder(mouse_px_), wheel.y));
+  }
+}
+
+// W A S D Q E by their place on the keyboard, while the right button is held or one walks.
+void App::FlyByKeys(double now_ms) {
+  const double seconds = std::min(0.1, (now_ms - last_fly_ms_) / 1000);
+  last_fly_ms_ = now_ms;
+  if (IsInside() || (gesture_ != Gesture::kLook && !is_walking_)) return;
+  if (ImGui::GetIO().WantTextInput) return;
+  const Uint8* keys = SDL_GetKeyboardState(nullptr);
+  const auto axis = [&](SDL_Scancode plus, SDL_Scancode minus) {
+    return static_cast<double>(keys[plus]) - static_cast<double>(keys[minus]);
+  };
+  const double forward = axis(SDL_SCANCODE_W, SDL_SCANCODE_S);
+  const double right = axis(SDL_SCANCODE_D, SDL_SCANCODE_A);
+  const double up = axis(SDL_SCANCODE_E, SDL_SCANCODE_Q);
+  if (forward == 0 && right == 0 && up == 0) return;
+  const bool is_fast = (SDL_GetModState() & KMOD_SHIFT) != 0;
+  if (is_walking_) {
+    // A brisk walk.
+    const double step = (is_fast ? 4.5 : 1.5) / MetresPerUnit(session_.model().unit) * seconds;
+    MoveEye(Walk(eye_, session_.model(), visibility_, step * forward, step * right));
+    return;
+  }
+  const double size = ComputeBounds(session_.model()).Diagonal();
+  const double step = 0.25 * size * fly_speed_ * (is_fast ? 3 : 1) * seconds;
+  MoveEye(Fly(eye_, step * forward, step * right, step * up));
+}
+
+}  // namespace groundglass

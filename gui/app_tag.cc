@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "gui/app.h"
+#include "scene/error.h"
+#include "scene/formats/ignore_mask.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+constexpr double kReachPx = 12;
+constexpr double kEdgeReachPx = 7;
+
+// Runs on a thread of its own.
+AlignmentNews AlignOne(const SessionPhotograph& photograph,
+                       const ViewTag& tag,
+                       const Pins& pins,
+                       const PolygonModel& model) {
+  PhotographInput input;
+  input.name = photograph.name;
+  input.grey8 = ReadGrey8(photograph.image_file);
+  if (photograph.mask_file) input.ignore = ReadIgnoreMask(*photograph.mask_file, photograph.size);
+  input.measured = tag;
+  RegisterOptions options;
+  for (const PointPin& pin : pins.points) {
+    if (pin.use != PinUse::kUsed) continue;
+    options.control_points.push_back(
+        {photograph.name, pin.image_px, pin.point_in_world, pin.sigma_px});
+  }
+  if (options.control_points.size() < 3) options.control_points.clear();
+  const EdgeModel edge_model(model);
+  const Registration registration = RegisterPhotograph(input, edge_model, options);
+  AlignmentNews news;
+  news.verdict = registration.verdict;
+  news.reasons = registration.reasons;
+  news.corrected = registration.corrected;
+  const auto of = [&](int parameter) { return std::max(1e-6, registration.sigmas[parameter]); };
+  TagSigmas& sigmas = news.corrected.sigmas;
+  const TagDeviations deviations = TagDeviationsFromCovariance(
+      ParametersFromTag(registration.corrected), registration.covariance, registration.corrected);
+  const auto deviation = [&](TagKey key) { return deviations[static_cast<size_t>(key)]; };
+  sigmas.position = std::max(of(kPositionX), of(kPositionY));
+  sigmas.height = of(kPositionZ);
+  sigmas.lookat =
+      std::max({1e-6, deviation(TagKey::kI), deviation(TagKey::kJ), deviation(TagKey::kK)});
+  sigmas.roll_deg = of(kRoll);
+  sigmas.view_angle_deg = of(kViewAngle);
+  sigmas.aspect = of(kAspect);
+  sigmas.shift = std::max(of(kShiftX), of(kShiftY));
+  sigmas.k1 = of(kK1);
+  news.moved_px = registration.moved_px;
+  news.vertex_sigma_px = registration.vertex_sigma_px;
+  news.rms_px = registration.rms_px;
+  news.margin_nats = registration.margin_nats;
+  news.undetermined = registration.undetermined;
+  return news;
+}
+
+}  // namespace
+
+void App::ChangePins(const Pins& pins, const std::string& gesture) {
+  PhotographWork work = session_.work(photograph_);
+  work.pins = pins;
+  // A camera that was found or taken before does not know of these pins.
+  work.alignment.reset();
+  work.accepted.reset();
+  work.overruled.clear();
+  session_.Change(photograph_, std::move(work), gesture);
+}
+
+void App::PlacePin(const Eigen::Vector3d& point_in_world, const Eigen::Vector2d& image_px) {
+  Pins pins = session_.work(photograph_).pins;
+  const auto same = std::find_if(pins.points.begin(), pins.points.end(), [&](const PointPin& pin) {
+    return pin.point_in_world == point_in_world;
+  });
+  // A corner has one place in a photograph.
+  pin_ = static_cast<int>(same - pins.points.begin());
+  if (same == pins.points.end()) {
+    pins.points.push_back(
+        {point_in_world, image_px, session_.options().pin_sigma_px, PinUse::kUsed});
+  } else {
+    same->image_px = image_px;
+  }
+  ChangePins(pins, "pin " + std::to_string(gesture_number_));
+}
+
+// Corners that are seen and have no pin yet.
+std::vector<VisibleCorner> App::UnpinnedCorners() {
+  std::vector<VisibleCorner> corners = Corners();
+  std::erase_if(corners, [&](const VisibleCorner& corner) {
+    const Eigen::Vector3d& point = session_.model().points_in_world[corner.point];
+    const std::vector<PointPin>& pins = session_.work(photograph_).pins.points;
+    return std::any_of(
+        pins.begin(), pins.end(), [&](const PointPin& pin) { return pin.point_in_world == point; });
+  });
+  return corners;
+}
+
+void App::PressInTag(const Eigen::Vector2d& pane_px) {
+  ++gesture_number_;
+  session_.EndGesture();
+  const Pins& pins = session_.work(photograph_).pins;
+  const std::optional<VisibleCorner> corner =
+      armed_point_ ? std::nullopt : PickCorner(UnpinnedCorners(), pane_px, kReachPx);
+  double nearest_px = corner ? (corner->image_px - pane_px).norm() : kReachPx;
+  if (armed_point_) nearest_px = 0;
+  for (size_t i = 0; i < pins.points.size(); ++i) {
+    const double distance = (place_.InPicture(pins.points[i].image_px) - pane_px).norm();
+    if (distance > nearest_px) continue;
+    nearest_px = distance;
+    pin_ = static_cast<int>(i);
+    gesture_ = Gesture::kPin;
+  }
+  if (gesture_ == Gesture::kPin) return;
+  for (size_t i = 0; i < pins.lines.size(); ++i) {
+    for (int end = 0; end < 2; ++end) {
+      const Eigen::Vector2d& at = end == 0 ? pins.lines[i].first_px : pins.lines[i].second_px;
+      if ((place_.InPicture(at) - pane_px).norm() > kReachPx) continue;
+      pin_ = static_cast<int>(pins.points.size() + i);
+      line_end_ = end;
+      gesture_ = Gesture::kLine;
+      return;
+    }
+  }
+  if (armed_point_) {
+    gesture_ = Gesture::kNewPin;
+    return;
+  }
+  if (corner) {
+    armed_point_ = corner->point;
+    gesture_ = Gesture::kNewPin;
+    return;
+  }
+  if (!PhotographCamera()) return;
+  const Camera camera = PaneCamera();
+  const auto spans = FindVisibleSpans(session_.model(), edges_, visibility_, camera, 0);
+  if (const auto span = PickSpan(spans, camera, pane_px, kEdgeReachPx)) {
+    // It becomes a pin when it is dragged; a click leaves it alone.
+    LinePin line;
+    line.start_in_world = spans[*span].start_in_world;
+    line.end_in_world = spans[*span].end_in_world;
+    line.first_px = place_.InPhotograph(*Project(camera, line.start_in_world));
+    line.second_px = place_.InPhotograph(*Project(camera, line.end_in_world));
+    line.sigma_px = session_.options().pin_sigma_px;
+    new_line_ = line;
+    line_end_ = -1;
+    gesture_ = Gesture::kLine;
+    return;
+  }
+  pin_.reset();
+}
+
+void App::DragInTag(const Eigen::Vector2d& pane_px, const Eigen::Vector2d& by_px, bool is_slow) {
+  if (!has_moved_) return;
+  Pins pins = session_.work(photograph_).pins;
+  const Eigen::Vector2d by = by_px / place_.scale * (is_slow ? 0.1 : 1);
+  if (gesture_ == Gesture::kNewPin) {
+    PlacePin(session_.model().points_in_world[*armed_point_], place_.InPhotograph(pane_px));
+    return;
+  }
+  if (gesture_ == Gesture::kPin) {
+    pins.points[*pin_].image_px += by;
+    ChangePins(pins, "pin " + std::to_string(gesture_number_));
+  } else if (gesture_ == Gesture::kLine) {
+    if (new_line_) {
+      pins.lines.push_back(*new_line_);
+      new_line_.reset();
+      pin_ = static_cast<int>(pins.points.size() + pins.lines.size()) - 1;
+    }
+    LinePin& line = pins.lines[*pin_ - pins.points.size()];
+    if (line_end_ != 1) line.first_px += by;
+    if (line_end_ != 0) line.second_px += by;
+    ChangePins(pins, "line " + std::to_string(gesture_number_));
+  }
+}
+
+void App::ReleaseInTag(const Eigen::Vector2d& pane_px) {
+  new_line_.reset();
+  if (gesture_ == Gesture::kNewPin) {
+    const Eigen::Vector3d& point = session_.model().points_in_world[*armed_point_];
+    const Eigen::Vector2d* seen = nullptr;
+    for (const VisibleCorner& corner : corners_) {
+      if (corner.point == *armed_point_) seen = &corner.image_px;
+    }
+    // A click on the corner itself takes it; the next click says where it is in the photograph.
+    const bool is_first_click =
+        !has_moved_ && seen != nullptr && (*seen - pane_px).norm() <= kReachPx && !pin_is_due_;
+    if (is_first_click) {
+      pin_is_due_ = true;
+    } else {
+      PlacePin(point, place_.InPhotograph(pane_px));
+      armed_point_.reset();
+      pin_is_due_ = false;
+    }
+  }
+  session_.EndGesture();
+}
+
+void App::StandThere(const Eigen::Vector3d& stood_in_world,
+                     const Eigen::Vector3d& looked_in_world) {
+  const ImageSize& size = session_.photographs()[photograph_].size;
+  if (size.width == 0 || (looked_in_world - stood_in_world).head<2>().norm() < 1e-6) return;
+  PhotographWork work = session_.work(photograph_);
+  work.tag = RoughTag(stood_in_world,
+                      looked_in_world,
+                      size.width,
+                      size.height,
+                      IsCropped(),
+                      session_.options().rough);
+  work.alignment.reset();
+  work.accepted.reset();
+  session_.Change(photograph_, std::move(work));
+  session_.EndGesture();
+}
+
+void App::StandAsLooking() {
+  const double distance =
+      (ComputeBounds(session_.model()).Center() - eye_.position_in_world).norm();
+  StandThere(eye_.position_in_world, eye_.position_in_world + distance * eye_.Forward());
+}
+
+bool App::IsCropped() const {
+  const auto& tag = session_.work(photograph_).tag;
+  return tag && tag->sigmas.shift && *tag->sigmas.shift > 0.1;
+}
+
+void App::ToggleCropped() {
+  PhotographWork work = session_.work(photograph_);
+  if (!work.tag) return;
+  const RoughPlaceOptions& rough = session_.options().rough;
+  work.tag->sigmas.shift = IsCropped() ? rough.shift : rough.cropped_shift;
+  work.alignment.reset();
+  work.accepted.reset();
+  session_.Change(photograph_, std::move(work));
+}
+
+void App::NudgePin(const KeyPress& press) {
+  if (!pin_) return;
+  const double step = press.ctrl ? 10 : press.shift ? 1 : 0.1;
+  Eigen::Vector2d by(0, 0);
+  if (press.key == "Left") by.x() = -step;
+  if (press.key == "Right") by.x() = step;
+  if (press.key == "Up") by.y() = -step;
+  if (press.key == "Down") by.y() = step;
+  Pins pins = session_.work(photograph_).pins;
+  const size_t index = *pin_;
+  if (index < pins.points.size()) {
+    pins.points[index].image_px += by;
+  } else {
+    LinePin& line = pins.lines[index - pins.points.size()];
+    if (line_end_ != 1) line.first_px += by;
+    if (line_end_ != 0) line.second_px += by;
+  }
+  ChangePins(pins, "nudge " + std::to_string(index));
+}
+
+void App::StepCorner(int by) {
+  const std::vector<VisibleCorner>& corners = Corners();
+  if (corners.empty()) return;
+  const int count = static_cast<int>(corners.size());
+  int at = by > 0 ? -1 : count;
+  for (int i = 0; armed_point_ && i < count; ++i) {
+    if (corners[i].point == *armed_point_) at = i;
+  }
+  armed_point_ = corners[(at + by + count) % count].point;
+  pin_is_due_ = true;
+  pin_.reset();
+}
+
+void App::TakeCorner() {
+  if (!armed_point_) {
+    pin_.reset();
+    session_.EndGesture();
+    return;
+  }
+  for (const VisibleCorner& corner : Corners()) {
+    if (corner.point != *armed_point_) continue;
+    ++gesture_number_;
+    PlacePin(session_.model().points_in_world[*armed_point_], place_.InPhotograph(corner.image_px));
+    session_.EndGesture();
+    break;
+  }
+  armed_point_.reset();
+  pin_is_due_ = false;
+}
+
+void App::CycleUse() {
+  if (!pin_) return;
+  Pins pins = session_.work(photograph_).pins;
+  const size_t index = *pin_;
+  PinUse& use = index < pins.points.size() ? pins.points[index].use
+                                           : pins.lines[index - pins.points.size()].use;
+  use = use == PinUse::kUsed    ? PinUse::kCheck
+        : use == PinUse::kCheck ? PinUse::kOff
+                                : PinUse::kUsed;
+  ChangePins(pins);
+}
+
+void App::RemovePin() {
+  if (!pin_) return;
+  Pins pins = session_.work(photograph_).pins;
+  const size_t index = *pin_;
+  if (index < pins.points.size()) {
+    pins.points.erase(pins.points.begin() + static_cast<std::ptrdiff_t>(index));
+  } else {
+    pins.lines.erase(pins.lines.begin() + static_cast<std::ptrdiff_t>(index - pins.points.size()));
+  }
+  pin_.reset();
+  ChangePins(pins);
+}
+
+void App::Align() {
+  if (alignment_.valid()) return;
+  const PhotographWork& work = session_.work(photograph_);
+  const auto& solution = session_.Solution(photograph_);
+  if (!work.tag || !solution) {
+    message_ = "first say on the plan where it was taken: press, drag, release";
+    return;
+  }
+  // The camera of the pins, as unsure as it was before them: they are told apart from it.
+  ViewTag tag = solution->tag;
+  tag.sigmas = work.tag->sigmas;
+  aligned_photograph_ = photograph_;
+  alignment_ = std::async(std::launch::async,
+                          AlignOne,
+                          session_.photographs()[photograph_],
+                          tag,
+                          work.pins,
+                          session_.model());
+  message_ = "aligning " + session_.photographs()[photograph_].name + " ...";
+}
+
+void App::TakeAlignment() {
+  try {
+    PhotographWork work = session_.work(aligned_photograph_);
+    work.alignment = alignment_.get();
+    message_ = session_.photographs()[aligned_photograph_].name + ": " +
+               std::string(VerdictName(work.alignment->verdict));
+    if (work.alignment->verdict == Verdict::kAccepted) work.accepted = work.alignment->corrected;
+    session_.Change(aligned_photograph_, std::move(work));
+    session_.EndGesture();
+  } catch (const std::exception& error) {
+    message_ = std::string("not aligned: ") + error.what();
+  }
+}
+
+void App::Accept(bool against_verdict) {
+  PhotographWork work = session_.work(photograph_);
+  if (!work.alignment) {
+    message_ = "nothing is found yet: A aligns";
+    return;
+  }
+  if (work.alignment->verdict != Verdict::kAccepted && !against_verdict) {
+    message_ = "it is not accepted; Ctrl+Shift+Enter takes it all the same, with a reason";
+    return;
+  }
+  if (against_verdict && reason_.empty()) {
+    asks_reason_ = true;
+    return;
+  }
+  work.accepted = work.alignment->corrected;
+  work.overruled = against_verdict ? reason_ : "";
+  reason_.clear();
+  session_.Change(photograph_, std::move(work));
+  session_.EndGesture();
+}
+
+void App::Save() {
+  if (photograph_ < 0) return;
+  const SaveResult result = session_.Save(photograph_);
+  message_ = result.message;
+  asks_to_overwrite_ = result.kind == SaveResult::Kind::kChangedOnDisk;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "gui/app.h"
+
+#include <imgui/imgui.h>
+
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+// Okabe and Ito's colours; each thing has a shape of its own as well.
+constexpr ImU32 kYellow = IM_COL32(240, 228, 66, 255);
+constexpr ImU32 kVermilion = IM_COL32(213, 94, 0, 255);
+constexpr ImU32 kSkyBlue = IM_COL32(86, 180, 233, 255);
+constexpr ImU32 kGrey = IM_COL32(200, 200, 200, 255);
+constexpr ImU32 kHalo = IM_COL32(10, 10, 14, 220);
+constexpr ImU32 kGreen = IM_COL32(0, 158, 115, 255);
+
+ImVec2 OnScreen(const Pane& pane, const Eigen::Vector2d& pane_px) {
+  return {static_cast<float>(pane.x + pane_px.x()), static_cast<float>(pane.y + pane_px.y())};
+}
+
+void Line(const ImVec2& from, const ImVec2& to, ImU32 colour, float width) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddLine(from, to, kHalo, width + 2);
+  list.AddLine(from, to, colour, width);
+}
+
+void Ring(const ImVec2& at, float radius, ImU32 colour) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddCircle(at, radius, kHalo, 16, 4);
+  list.AddCircle(at, radius, colour, 16, 2);
+}
+
+void Triangle(const ImVec2& at, float size, ImU32 colour) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const ImVec2 top(at.x, at.y - size);
+  const ImVec2 left(at.x - size, at.y + 0.7f * size);
+  const ImVec2 right(at.x + size, at.y + 0.7f * size);
+  list.AddTriangle(top, left, right, kHalo, 5);
+  list.AddTriangle(top, left, right, colour, 2.5f);
+}
+
+void Text(const ImVec2& at, ImU32 colour, const std::string& text) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (const ImVec2& by : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1)}) {
+    list.AddText(ImVec2(at.x + by.x, at.y + by.y), kHalo, text.c_str());
+  }
+  list.AddText(at, colour, text.c_str());
+}
+
+std::string Px(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", value);
+  return text;
+}
+
+}  // namespace
+
+void App::DrawOverlayLines() {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.PushClipRect(ImVec2(static_cast<float>(pane_.x), static_cast<float>(pane_.y)),
+                    ImVec2(static_cast<float>(pane_.x + pane_.width),
+                           static_cast<float>(pane_.y + pane_.height)));
+  if (!IsInside() && shows_stations_) DrawStations();
+  if (CanTag()) DrawPins();
+  if (CanTag()) DrawLoupe();
+  DrawPlaces();
+  list.PopClipRect();
+}
+
+void App::DrawStations() {
+  const Camera camera = PaneCamera();
+  const double size = 0.06 * ComputeBounds(session_.model()).Diagonal();
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (int i = 0; i < static_cast<int>(session_.photographs().size()); ++i) {
+    const std::optional<Camera>& written = WrittenCamera(i);
+    const std::optional<Camera> found = BelievedCamera(i);
+    if (!found) continue;
+    const Eigen::Vector3d apex = found->PositionInWorld();
+    const auto apex_px = Project(camera, apex);
+    if (!apex_px) continue;
+    const ImU32 colour = i == photograph_ ? kYellow : kSkyBlue;
+    std::array<ImVec2, 4> corners;
+    bool is_seen = true;
+    for (int c = 0; c < 4; ++c) {
+      const Eigen::Vector2d at((c == 1 || c == 2) ? found->width_px : 0,
+                               c >= 2 ? found->height_px : 0);
+      const auto corner = Project(camera, apex + size * UnprojectToWorld(*found, at));
+      if (!corner) {
+        is_seen = false;
+        break;
+      }
+      corners[c] = OnScreen(pane_, *corner);
+    }
+    const ImVec2 from = OnScreen(pane_, *apex_px);
+    if (is_seen) {
+      if (const auto thumbnail = thumbnails_.find(i); thumbnail != thumbnails_.end()) {
+        list.AddImageQuad(thumbnail->second.get(), corners[0], corners[1], corners[2], corners[3]);
+      }
+      for (int c = 0; c < 4; ++c) {
+        Line(from, corners[c], colour, 1);
+        Line(corners[c], corners[(c + 1) % 4], colour, 1.5f);
+      }
+    }
+    if (written) {
+      if (const auto was = Project(camera, written->PositionInWorld())) {
+        const ImVec2 at = OnScreen(pane_, *was);
+        Line(at, from, kGrey, 1);
+        list.AddRect(ImVec2(at.x - 3, at.y - 3), ImVec2(at.x + 3, at.y + 3), kGrey);
+      }
+    }
+    Text(ImVec2(from.x + 5, from.y + 3), colour, session_.photographs()[i].name);
+  }
+}
+
+void App::DrawPins() {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto& solution = session_.Solution(photograph_);
+  const Pins& pins = session_.work(photograph_).pins;
+  for (const VisibleCorner& corner : Corners()) {
+    const ImVec2 at = OnScreen(pane_, corner.image_px);
+    const bool is_armed = armed_point_ && *armed_point_ == corner.point;
+    list.AddRectFilled(ImVec2(at.x - 2, at.y - 2), ImVec2(at.x + 2, at.y + 2), kHalo);
+    list.AddRectFilled(ImVec2(at.x - 1, at.y - 1), ImVec2(at.x + 1, at.y + 1), kSkyBlue);
+    if (is_armed) Ring(at, 9, kSkyBlue);
+  }
+  for (size_t i = 0; i < pins.points.size(); ++i) {
+    const PointPin& pin = pins.points[i];
+    const ImVec2 at = OnScreen(pane_, place_.InPicture(pin.image_px));
+    const bool is_bad = solution && solution->points[i].is_bad;
+    const ImU32 colour = is_bad ? kVermilion : pin.use == PinUse::kOff ? kGrey : kYellow;
+    if (is_bad) {
+      Triangle(at, 9, colour);
+    } else {
+      Ring(at, pin_ == static_cast<int>(i) ? 9.0f : 6.0f, colour);
+    }
+    if (!solution || !solution->points[i].seen_px) continue;
+    // Ten times as long as it is, so that it is seen.
+    const Eigen::Vector2d by = 10 * place_.scale * solution->points[i].residual_px;
+    Line(at,
+         ImVec2(at.x + static_cast<float>(by.x()), at.y + static_cast<float>(by.y())),
+         colour,
+         1);
+    Text(ImVec2(at.x + 11, at.y - 8),
+         colour,
+         std::to_string(i + 1) + "  " + Px(solution->points[i].size_px));
+  }
+  for (size_t i = 0; i < pins.lines.size(); ++i) {
+    const ImVec2 first = OnScreen(pane_, place_.InPicture(pins.lines[i].first_px));
+    const ImVec2 second = OnScreen(pane_, place_.InPicture(pins.lines[i].second_px));
+    const bool is_bad = solution && solution->lines[i].is_bad;
+    const ImU32 colour = is_bad ? kVermilion : pins.lines[i].use == PinUse::kOff ? kGrey : kYellow;
+    Line(first, second, colour, 2);
+    Ring(first, 4, colour);
+    Ring(second, 4, colour);
+    if (solution) {
+      Text(ImVec2((first.x + second.x) / 2 + 8, (first.y + second.y) / 2 - 8),
+           colour,
+           Px(solution->lines[i].size_px));
+    }
+  }
+}
+
+// What is under the cursor, or the pin that is nudged, enlarged; in the corner that is away from
+// it.
+void App::DrawLoupe() {
+  const Pins& pins = session_.work(photograph_).pins;
+  const bool is_dragged =
+      has_moved_ &&
+      (gesture_ == Gesture::kPin || gesture_ == Gesture::kNewPin || gesture_ == Gesture::kLine);
+  const bool is_point = pin_ && *pin_ < static_cast<int>(pins.points.size());
+  if (!is_dragged && !is_point && !shows_loupe_) return;
+  const auto picture = cache_.Find(photograph_);
+  if (!picture) return;
+  const Eigen::Vector2d at_px =
+      is_point ? pins.points[*pin_].image_px : place_.InPhotograph(mouse_px_);
+  constexpr int kLoupePx = 240;
+  constexpr int kLoupeRadiusPx = 15;
+  loupe_ = window_.MakeTexture(CropAround(*picture, at_px, kLoupeRadiusPx, kLoupePx));
+  const bool is_left = place_.InPicture(at_px).x() > pane_.width / 2.0;
+  const float x =
+      static_cast<float>(is_left ? pane_.x + 10 : pane_.x + pane_.width - kLoupePx - 10);
+  const float y = static_cast<float>(pane_.y + 10);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddImage(loupe_.get(), ImVec2(x, y), ImVec2(x + kLoupePx, y + kLoupePx));
+  list.AddRect(ImVec2(x, y), ImVec2(x + kLoupePx, y + kLoupePx), kYellow);
+}
+
+void App::DrawPlaces() {
+  const Camera camera = PaneCamera();
+  std::vector<ImVec2> seen;
+  for (size_t i = 0; i < places_.size(); ++i) {
+    const auto at = Project(camera, places_[i].point_in_world);
+    if (!at) continue;
+    seen.push_back(OnScreen(pane_, *at));
+    Ring(seen.back(), 7, kGreen);
+    Text(ImVec2(seen.back().x + 10, seen.back().y - 8), kGreen, std::to_string(i + 1));
+  }
+  for (size_t i = 0; i + 1 < seen.size(); ++i) Line(seen[i], seen[i + 1], kGreen, 2);
+  if (seen.size() == 3) Line(seen[2], seen[0], kGreen, 2);
+}
+
+}  // namespace groundglass

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "gui/app.h"
+
+#include <imgui/imgui.h>
+
+#include <array>
+
+namespace groundglass {
+namespace {
+
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+void BeginPanel(const char* name, int x, int y, int width, int height, int flags = 0) {
+  ImGui::SetNextWindowPos(ImVec2(static_cast<float>(x), static_cast<float>(y)));
+  ImGui::SetNextWindowSize(ImVec2(static_cast<float>(width), static_cast<float>(height)));
+  ImGui::Begin(name, nullptr, kPanel | flags);
+}
+
+}  // namespace
+
+void App::DrawPanels() {
+  DrawTopBar();
+  if (pane_.x > 0) {
+    BeginPanel("photographs", 0, pane_.y, pane_.x, plan_.y - pane_.y);
+    DrawPhotographs();
+    ImGui::End();
+    BeginPanel("plan", 0, plan_.y, plan_.width, plan_.height, ImGuiWindowFlags_NoScrollbar);
+    DrawPlan();
+    ImGui::End();
+    const int right = pane_.x + pane_.width;
+    BeginPanel("context", right, pane_.y, window_.width_px() - right, pane_.height);
+    DrawContext();
+    ImGui::End();
+  }
+  DrawStatus();
+  DrawHelp();
+  DrawQuestions();
+}
+
+void App::DrawTopBar() {
+  BeginPanel("top", 0, 0, window_.width_px(), pane_.y, ImGuiWindowFlags_NoScrollbar);
+  ImGui::SetCursorPosY(5);
+  constexpr std::array<WindowMode, 3> kModes = {
+      WindowMode::kLook, WindowMode::kTag, WindowMode::kAsk};
+  constexpr std::array<Action, 3> kActions = {
+      Action::kLookMode, Action::kTagMode, Action::kAskMode};
+  for (size_t i = 0; i < kModes.size(); ++i) {
+    const std::string label =
+        "F" + std::to_string(i + 2) + " " + std::string(WindowModeName(kModes[i]));
+    const bool is_chosen = mode_ == kModes[i];
+    if (is_chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.16f, 0.42f, 0.62f, 1));
+    if (ImGui::Button(label.c_str())) DoEverywhere(kActions[i]);
+    if (is_chosen) ImGui::PopStyleColor();
+    ImGui::SameLine();
+  }
+  std::string title = document_.title;
+  if (photograph_ >= 0) {
+    title += ": " + session_.photographs()[photograph_].name;
+    if (session_.IsUnsaved(photograph_)) title += "  \u25CF unsaved";
+  }
+  ImGui::Text("   %s", title.c_str());
+  window_.SetTitle(title + " - groundglass");
+  ImGui::End();
+}
+
+void App::DrawPhotographs() {
+  if (session_.photographs().empty()) {
+    ImGui::TextWrapped(
+        "No photographs. They belong into images/ of a scene's folder, beside its model.");
+    return;
+  }
+  for (int i = 0; i < static_cast<int>(session_.photographs().size()); ++i) {
+    const SessionPhotograph& photograph = session_.photographs()[i];
+    const auto registration = document_.registrations.find(photograph.name);
+    const PhotographWork& work = session_.work(i);
+    std::string line = work.tag ? "\u2713 " : "\u25CB ";
+    std::string state = work.tag ? "" : "no tag";
+    if (registration != document_.registrations.end()) {
+      const Verdict verdict = registration->second.verdict;
+      line = verdict == Verdict::kAccepted ? "\u2713 "
+             : verdict == Verdict::kReview ? "\u25B2 "
+                                           : "\u2717 ";
+      state = VerdictName(verdict);
+    }
+    if (work.alignment) state = VerdictName(work.alignment->verdict);
+    const std::string fault = !photograph.fault.empty() ? photograph.fault : cache_.FaultOf(i);
+    if (!fault.empty()) {
+      line = "\u2717 ";
+      state = "cannot be read";
+    }
+    line += photograph.name + "  " + state + (session_.IsUnsaved(i) ? " \u25CF" : "");
+    if (const auto thumbnail = thumbnails_.find(i); thumbnail != thumbnails_.end()) {
+      int width = 0;
+      int height = 0;
+      SDL_QueryTexture(thumbnail->second.get(), nullptr, nullptr, &width, &height);
+      const float shown = ImGui::GetTextLineHeightWithSpacing() * 1.6f;
+      ImGui::Image(thumbnail->second.get(), ImVec2(shown * width / height, shown));
+      ImGui::SameLine();
+    }
+    if (ImGui::Selectable(line.c_str(), i == photograph_, ImGuiSelectableFlags_AllowDoubleClick)) {
+      Choose(i, IsInside() || mode_ == WindowMode::kTag || ImGui::IsMouseDoubleClicked(0));
+    }
+    if (ImGui::IsItemHovered() && !fault.empty()) ImGui::SetTooltip("%s", fault.c_str());
+  }
+}
+
+void App::DrawContext() {
+  switch (mode_) {
+    case WindowMode::kLook:
+      DrawLookPanel();
+      break;
+    case WindowMode::kTag:
+      DrawTagPanel();
+      break;
+    case WindowMode::kAsk:
+      DrawAskPanel();
+      break;
+  }
+}
+
+void App::DrawLookPanel() {
+  const auto choice = [&](const char* label, DrawMode mode) {
+    if (ImGui::RadioButton(label, draw_mode_ == mode)) draw_mode_ = mode;
+  };
+  choice("1 wire", DrawMode::kWireframe);
+  choice("2 shaded", DrawMode::kShaded);
+  choice("3 textured", DrawMode::kTextured);
+  choice("4 face numbers", DrawMode::kLabels);
+  ImGui::Checkbox("O edges", &shows_edges_);
+  ImGui::Checkbox("P photographs at their stations", &shows_stations_);
+  if (ImGui::Checkbox("G walk", &is_walking_) && is_walking_) {
+    MoveEye(Walk(eye_, session_.model(), visibility_, 0, 0));
+  }
+  if (IsInside()) {
+    float share = static_cast<float>(model_share_);
+    if (ImGui::SliderFloat("model", &share, 0, 1, "%.2f")) model_share_ = share;
+    ImGui::Checkbox("V wipe", &wipes_);
+    ImGui::Checkbox("C as written too (grey)", &shows_written_);
+  }
+  ImGui::Separator();
+  if (picked_face_) {
+    const PolygonModel& model = session_.model();
+    ImGui::TextWrapped("%s", DescribeFace(model, *picked_face_).c_str());
+    ImGui::TextWrapped(
+        "%.2f square %s", ComputeFaceArea(model, *picked_face_), UnitName(model.unit).c_str());
+    if (const auto texel = TexelSize(survey_, *picked_face_)) {
+      ImGui::TextWrapped(
+          "texels of %.4f x %.4f %s", (*texel)[0], (*texel)[1], UnitName(model.unit).c_str());
+    }
+  } else {
+    ImGui::TextWrapped("Click a face for its name and area.");
+  }
+}
+
+void App::DrawStatus() {
+  const int height = window_.height_px() - pane_.y - pane_.height;
+  BeginPanel("status",
+             0,
+             pane_.y + pane_.height,
+             window_.width_px(),
+             height,
+             ImGuiWindowFlags_NoScrollbar);
+  ImGui::SetCursorPosY(5);
+  const std::string line =
+      message_.empty() ? StatusLine() : message_ + "   \u00B7   " + StatusLine();
+  ImGui::TextUnformatted(line.c_str());
+  ImGui::End();
+}
+
+std::string App::StatusLine() const {
+  if (shows_help_) return "type to search \u00B7 Esc closes";
+  if (mode_ == WindowMode::kAsk) {
+    return "click: what is there \u00B7 Shift+click: a distance, an area \u00B7 Esc forgets \u00B7 "
+           "F1 keys";
+  }
+  if (CanTag()) return TagStatusLine();
+  if (IsInside()) {
+    return "wheel zooms, drag moves the photograph \u00B7 , . fade \u00B7 B photograph alone "
+           "\u00B7 V wipe \u00B7 F3 tag \u00B7 Esc back \u00B7 F1 keys";
+  }
+  if (is_walking_)
+    return "drag looks around \u00B7 W A S D or arrows walk \u00B7 G ends \u00B7 F1 keys";
+  return "drag turns, middle drag moves, wheel nears, right drag with WASD flies \u00B7 Enter: "
+         "into the photograph \u00B7 F1 keys";
+}
+
+void App::DrawHelp() {
+  if (!shows_help_) return;
+  const float width = static_cast<float>(window_.width_px());
+  const float height = static_cast<float>(window_.height_px());
+  ImGui::SetNextWindowPos(ImVec2(0.15f * width, 0.08f * height));
+  ImGui::SetNextWindowSize(ImVec2(0.7f * width, 0.84f * height));
+  ImGui::SetNextWindowFocus();
+  ImGui::Begin(
+      "Keys", &shows_help_, ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse);
+  static std::array<char, 64> filter = {};
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::InputText("search", filter.data(), filter.size());
+  const std::string sought = filter.data();
+  if (ImGui::BeginTable("keys", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) {
+    ImGui::TableSetupColumn("where", ImGuiTableColumnFlags_WidthStretch, 0.2f);
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.3f);
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch, 0.5f);
+    for (const Binding& binding : Bindings()) {
+      const std::string keys(binding.keys);
+      const std::string does(binding.does);
+      if (does.find(sought) == std::string::npos && keys.find(sought) == std::string::npos)
+        continue;
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(std::string(BindingPlaceName(binding.place)).c_str());
+      ImGui::TableNextColumn();
+      ImGui::TextWrapped("%s", keys.c_str());
+      ImGui::TableNextColumn();
+      ImGui::TextWrapped("%s", does.c_str());
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+}  // namespace groundglass

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "gui/app.h"
+
+#include <imgui/imgui.h>
+
+#include <array>
+
+namespace groundglass {
+namespace {
+
+// Asks until `asked` is false.
+template <typename Draw>
+void Ask(const char* title, bool& asked, const Draw& draw) {
+  if (asked && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+  if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  draw();
+  if (!asked) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+void App::DrawQuestions() {
+  Ask("Unsaved work", asks_to_quit_, [&] {
+    ImGui::Text("Some photographs are not saved.");
+    if (ImGui::Button("Save all") || says_yes_) {
+      bool is_saved = true;
+      for (int i = 0; i < static_cast<int>(session_.photographs().size()); ++i) {
+        const SaveResult result = session_.Save(i);
+        if (result.kind == SaveResult::Kind::kNothingToSave) continue;
+        message_ = result.message;
+        is_saved = is_saved && result.kind == SaveResult::Kind::kSaved;
+      }
+      asks_to_quit_ = false;
+      is_open_ = !is_saved;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Discard")) {
+      session_.ForgetJournal();
+      is_open_ = false;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel") || says_no_) asks_to_quit_ = false;
+  });
+  Ask("Changed on disk", asks_to_overwrite_, [&] {
+    ImGui::Text("Somebody else has changed these files since they were read.");
+    if (ImGui::Button("Keep mine") || says_yes_) {
+      message_ = session_.Save(photograph_, true).message;
+      asks_to_overwrite_ = false;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel") || says_no_) asks_to_overwrite_ = false;
+  });
+  Ask("Unsaved work of an earlier session", offers_left_work_, [&] {
+    ImGui::Text("There is unsaved work of %s.", session_.LeftWorkIsOf().c_str());
+    if (ImGui::Button("Take it") || says_yes_) {
+      session_.TakeLeftWork();
+      offers_left_work_ = false;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Drop it") || says_no_) {
+      session_.DropLeftWork();
+      offers_left_work_ = false;
+    }
+  });
+  Ask("Against the verdict", asks_reason_, [&] {
+    static std::array<char, 200> reason = {};
+    ImGui::Text("Why is it right all the same?");
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    ImGui::InputText("reason", reason.data(), reason.size());
+    if ((ImGui::Button("Take it") || says_yes_) && reason[0] != 0) {
+      reason_ = reason.data();
+      reason = {};
+      asks_reason_ = false;
+      Accept(true);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel") || says_no_) asks_reason_ = false;
+  });
+  says_yes_ = says_no_ = false;
+}
+
+}  // namespace groundglass

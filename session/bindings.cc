@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "session/bindings.h"
+
+#include <array>
+
+namespace groundglass {
+namespace {
+
+using enum BindingPlace;
+using enum Action;
+
+constexpr auto kBindings = std::to_array<Binding>({
+    {kEverywhere, kHelp, "F1", "these keys"},
+    {kEverywhere, kLookMode, "F2", "Look: move around the model"},
+    {kEverywhere, kTagMode, "F3", "Tag: find a photograph's camera"},
+    {kEverywhere, kAskMode, "F4", "Ask: what is where, and who shows it"},
+    {kEverywhere, kUndo, "Ctrl+Z", "undo, for the photograph that is shown"},
+    {kEverywhere, kRedo, "Ctrl+Y Ctrl+Shift+Z", "redo"},
+    {kEverywhere, kSave, "Ctrl+S", "save the photograph's view file and pins"},
+    {kEverywhere, kQuit, "Ctrl+Q", "close the window"},
+    {kEverywhere, kCancel, "Escape", "let go, then leave the photograph"},
+    {kEverywhere, kHidePanels, "F11", "hide the panels, or show them"},
+    {kEverywhere, kScreenshot, "F12", "a picture of the window, into the folder it was started in"},
+    {kEverywhere, kLargerText, "Ctrl+= Ctrl+Shift+=", "larger text"},
+    {kEverywhere, kSmallerText, "Ctrl+-", "smaller text"},
+    {kEverywhere, kUsualText, "Ctrl+0", "text as it was"},
+    {kEverywhere, kNextPhotograph, "Alt+Right", "next photograph"},
+    {kEverywhere, kPreviousPhotograph, "Alt+Left", "photograph before"},
+    {kEverywhere, kNextWithoutTag, "N", "next photograph without a tag"},
+    {kLook, kWire, "1", "wire, hidden lines removed"},
+    {kLook, kShaded, "2", "shaded"},
+    {kLook, kTextured, "3", "textured"},
+    {kLook, kNumbers, "4", "face numbers"},
+    {kLook, kEdges, "O", "edges over the faces, on or off"},
+    {kLook, kStations, "P", "photographs at their stations, on or off"},
+    {kLook, kFrame, "F", "look at the face that was picked"},
+    {kLook, kHome, "Home", "the whole model"},
+    {kLook, kBack, "Backspace", "view before"},
+    {kLook, kWalk, "G", "walk: eye height, ground and stairs followed"},
+    {kLook, kTowards, "PageUp", "nearer"},
+    {kLook, kAway, "PageDown", "farther"},
+    {kLook, kNudge, "Left Right Up Down", "turn about the model; walking: step and turn"},
+    {kLook, kFlyIn, "Return", "fly into the photograph that is chosen"},
+    {kPhotograph, kFadeMore, ".", "more of the model"},
+    {kPhotograph, kFadeLess, ",", "more of the photograph"},
+    {kPhotograph, kPhotographAlone, "B", "the photograph alone, as long as it is held"},
+    {kPhotograph, kWipe, "V", "wipe between photograph and model at the cursor, on or off"},
+    {kPhotograph, kZoom, "Z", "fit, 100 %, 400 %"},
+    {kPhotograph, kWritten, "C", "edges as written too, on or off"},
+    {kTag, kNextCorner, "Tab", "next corner that is seen"},
+    {kTag, kPreviousCorner, "Shift+Tab", "corner before"},
+    {kTag, kTake, "Return", "take the corner; then let it go"},
+    {kTag,
+     kNudge,
+     "Left Right Up Down Shift+Left Shift+Right Shift+Up Shift+Down Ctrl+Left Ctrl+Right Ctrl+Up "
+     "Ctrl+Down",
+     "the pin by 0.1 px of the photograph; Shift: 1; Ctrl: 10"},
+    {kTag, kUsePin, "U", "the pin is used, check only, off"},
+    {kTag, kLoupe, "L", "the loupe always, or while a pin is moved"},
+    {kTag, kRemovePin, "Delete", "remove the pin"},
+    {kTag, kStandHere, "H", "it stood where you looked from last"},
+    {kTag, kCropped, "X", "the picture was cut: its middle is unknown, or known again"},
+    {kTag, kAlign, "A", "align: registration from here"},
+    {kTag, kAccept, "Ctrl+Return", "take what was found"},
+    {kTag, kOverrule, "Ctrl+Shift+Return", "take it against the verdict"},
+    {kAsk, kCopyCsv, "Ctrl+C", "copy the answer as CSV"},
+});
+
+bool HasKey(std::string_view keys, std::string_view key) {
+  for (size_t start = 0; start < keys.size();) {
+    const size_t end = std::min(keys.find(' ', start), keys.size());
+    if (keys.substr(start, end - start) == key) return true;
+    start = end + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view WindowModeName(WindowMode mode) {
+  constexpr std::array<std::string_view, 3> kNames = {"Look", "Tag", "Ask"};
+  return kNames[static_cast<size_t>(mode)];
+}
+
+std::string_view BindingPlaceName(BindingPlace place) {
+  constexpr std::array<std::string_view, 5> kNames = {
+      "Everywhere", "Look", "In a photograph", "Tag", "Ask"};
+  return kNames[static_cast<size_t>(place)];
+}
+
+std::span<const Binding> Bindings() { return kBindings; }
+
+std::string KeyPress::Text() const {
+  return std::string(ctrl ? "Ctrl+" : "") + (alt ? "Alt+" : "") + (shift ? "Shift+" : "") + key;
+}
+
+const Binding* FindBinding(const KeyPress& press, std::span<const BindingPlace> places) {
+  const std::string text = press.Text();
+  // The narrower place, which stands later, decides.
+  for (size_t i = places.size(); i > 0; --i) {
+    for (const Binding& binding : kBindings) {
+      if (binding.place == places[i - 1] && HasKey(binding.keys, text)) return &binding;
+    }
+  }
+  return nullptr;
+}
+
+std::string FormatBindings() {
+  std::string text = "| where | keys | what |\n|---|---|---|\n";
+  for (const Binding& binding : kBindings) {
+    text += "| " + std::string(BindingPlaceName(binding.place)) + " | " +
+            std::string(binding.keys) + " | " + std::string(binding.does) + " |\n";
+  }
+  return text;
+}
+
+}  // namespace groundglass

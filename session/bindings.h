@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace groundglass {
+
+enum class WindowMode { kLook, kTag, kAsk };
+std::string_view WindowModeName(WindowMode mode);
+
+// Everything that a key does in the window.
+enum class Action {
+  kHelp,
+  kLookMode,
+  kTagMode,
+  kAskMode,
+  kUndo,
+  kRedo,
+  kSave,
+  kQuit,
+  kCancel,
+  kScreenshot,
+  kLargerText,
+  kSmallerText,
+  kUsualText,
+  kNextPhotograph,
+  kPreviousPhotograph,
+  kNextWithoutTag,
+  kHidePanels,
+  kWire,
+  kShaded,
+  kTextured,
+  kNumbers,
+  kEdges,
+  kStations,
+  kPlan,
+  kWritten,
+  kFrame,
+  kHome,
+  kBack,
+  kWalk,
+  kFlyIn,
+  kTowards,
+  kAway,
+  kFadeMore,
+  kFadeLess,
+  kPhotographAlone,
+  kWipe,
+  kZoom,
+  kNextCorner,
+  kPreviousCorner,
+  kTake,
+  kUsePin,
+  kLoupe,
+  kRemovePin,
+  kStandHere,
+  kCropped,
+  kAlign,
+  kAccept,
+  kOverrule,
+  kNudge,
+  kCopyCsv,
+};
+
+// Where a binding holds.
+enum class BindingPlace { kEverywhere, kLook, kPhotograph, kTag, kAsk };
+std::string_view BindingPlaceName(BindingPlace place);
+
+// One table for input, F1 and the documentation.
+struct Binding {
+  BindingPlace place;
+  Action action;
+  std::string_view keys;  // as a person writes them: "Ctrl+Shift+Z", "Left"; several with blanks
+  std::string_view does;
+};
+std::span<const Binding> Bindings();
+
+// A key that was pressed, as the table writes it.
+struct KeyPress {
+  std::string key;  // "A", "Left", "F1"
+  bool shift = false;
+  bool ctrl = false;
+  bool alt = false;
+
+  std::string Text() const;
+};
+// The binding that this press means here; null if none does. Places are those that hold at once.
+const Binding* FindBinding(const KeyPress& press, std::span<const BindingPlace> places);
+
+// The table as the documentation has it.
+std::string FormatBindings();
+
+}  // namespace groundglass
