@@ -26,7 +26,7 @@ struct AlignedPhotograph {
   // solution elsewhere scores in all, and how far away it lies; none: nothing.
   std::vector<ScoreSample> score_samples = {};
   std::vector<ScoreSample> conflict_samples = {};  // the same, for FindEdgeConflict
-  int width_px = 0;  // of the picture in which the samples are seen
+  int width_px = 0;                                // of the picture in which the samples are seen
   std::optional<double> second_best_nats = {};
   CameraParameters second_best_whitened = CameraParameters::Zero();
   double second_best_distance_px = 0;  // of the photograph itself

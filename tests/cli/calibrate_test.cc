@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+// The tag without its view angle.
+void LeaveOutViewAngle(const fs::path& view) {
+  std::string text = ReadAll(view);
+  const size_t at = text.find("\nv ");
+  ASSERT_NE(at, std::string::npos);
+  text.erase(at, text.find('\n', at + 1) - at);
+  WriteAll(view, text);
+}
+
+TEST(Calibrate, LinesTellTheViewAngleThatATagLacksAndItsOwnNumberWins) {
+  const TemporaryFolder work;
+  CopyBrick(work / "scene", {"s3", "s6"});
+  const std::string scene = (work / "scene").string();
+  LeaveOutViewAngle(work / "scene/views/s3.view");
+  const ProgramRun before = RunProgram({"check", scene});
+  EXPECT_EQ(before.status, 1);
+  EXPECT_THAT(before.out, HasSubstr("'v' is missing, and the picture's metadata say no focal"));
+
+  const ProgramRun lens = RunProgram({"calibrate", "lens", scene});
+  EXPECT_EQ(lens.status, 0) << lens.err;
+  EXPECT_THAT(lens.out, HasSubstr("s3: the picture's metadata say no focal length\n"));
+  EXPECT_FALSE(fs::exists(work / "scene/calibration"));
+
+  const ProgramRun lines = RunProgram({"calibrate", "lines", scene});
+  EXPECT_EQ(lines.status, 0) << lines.err;
+  EXPECT_THAT(lines.out, HasSubstr("s3: v 5"));
+  const ProgramRun after = RunProgram({"check", scene});
+  EXPECT_EQ(after.status, 0) << after.out;
+  EXPECT_THAT(after.out, HasSubstr("note: s3: "));
+  EXPECT_THAT(after.out, HasSubstr("v roll"));
+  // The other tag's v stays what was written, and lacks a roll.
+  EXPECT_THAT(ReadAll(work / "scene/calibration/s6.view"), HasSubstr("\nv 5"));
+  EXPECT_THAT(after.out, Not(HasSubstr("s6: v")));
+}
+
+TEST(Calibrate, ALensFileGoesToRosAndComesBack) {
+  const TemporaryFolder work;
+  const std::string lens = work.Write("my.lens", "v 57.3\na 1.5\nshift_x 0.01\nk1 -0.1\n").string();
+  const std::string ros = (work / "ros.yaml").string();
+  const std::string back = (work / "back.lens").string();
+  EXPECT_EQ(RunProgram({"calibrate", "export", lens, "-o", ros, "--format", "ros"}).status, 2);
+  ASSERT_EQ(
+      RunProgram({"calibrate", "export", lens, "-o", ros, "--format", "ros", "--size", "1500x1000"})
+          .status,
+      0);
+  EXPECT_THAT(ReadAll(ros), HasSubstr("distortion_model: plumb_bob"));
+  ASSERT_EQ(RunProgram({"calibrate", "export", ros, "-o", back}).status, 0);
+  EXPECT_THAT(ReadAll(back), HasSubstr("v 57.3"));
+  EXPECT_THAT(ReadAll(back), HasSubstr("k1 -0.1\n"));
+}
+
+}  // namespace
+}  // namespace groundglass
