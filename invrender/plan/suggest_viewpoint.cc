@@ -8,6 +8,16 @@
 #include <cmath>
 
 namespace groundglass {
+namespace {
+
+// Whoever looks straight up at the back of a face stands under a roof, within the model: what a
+// wall shows there is no facade.
+bool IsUnderARoof(const Visibility& visibility, const Eigen::Vector3d& stand_in_world) {
+  const auto above = visibility.FirstHit(stand_in_world, Eigen::Vector3d::UnitZ());
+  return above && !above->is_front;
+}
+
+}  // namespace
 
 std::optional<Eigen::Vector3d> SuggestViewpoint(const PolygonModel& model,
                                                 const Visibility& visibility,
@@ -32,7 +42,8 @@ std::optional<Eigen::Vector3d> SuggestViewpoint(const PolygonModel& model,
         const Eigen::Vector3d from_target = stand - target_in_world;
         if (stand.z() < lowest + eye - tolerance) continue;
         if (from_target.normalized().dot(normal) < options.least_cosine) continue;
-        if (visibility.IsClear(stand, target_in_world, tolerance)) return stand;
+        if (!visibility.IsClear(stand, target_in_world, tolerance)) continue;
+        if (!IsUnderARoof(visibility, stand)) return stand;
       }
     }
   }
