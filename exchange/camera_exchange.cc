@@ -69,6 +69,7 @@ class CameraPreparation {
                                   : " keeps pictures beside its cameras") +
                       "; say with --images where the photographs are");
     }
+    if (is_changed || format_.keeps_pictures) RequireOwnFolder();
     if (is_changed) {
       WriteChanged(file, prepared, each);
       ++num_changed_;
@@ -85,6 +86,17 @@ class CameraPreparation {
     return (format_.keeps_pictures ? folder_ : folder_ / "images") / (name + ".jpg");
   }
 
+  // Originals are never written, neither photographs nor the masks that lie beside their folder.
+  void RequireOwnFolder() const {
+    const fs::path photographs = fs::weakly_canonical(fs::absolute(source_.images));
+    const fs::path out = fs::weakly_canonical(fs::absolute(folder_));
+    if (out != photographs && out != photographs.parent_path()) return;
+    throw Error(out,
+                "the pictures that " + std::string(format_.name) +
+                    " needs would be written among the photographs or their masks; give an output "
+                    "in a folder of its own");
+  }
+
   void WriteChanged(const fs::path& file, const Camera& prepared, ExchangeCamera& each) const {
     const PreparedImage image = PrepareImage(ReadSrgb8(file), each.camera, prepared);
     each.camera = prepared;
@@ -99,7 +111,7 @@ class CameraPreparation {
     each.image_file = fs::absolute(PictureFile(each.name));
     const std::string ending = LowerCase(file.extension().string());
     if ((ending == ".jpg" || ending == ".jpeg") && size.orientation == 1) {
-      WriteFileAtomically(each.image_file, ReadTextFile(file));
+      WriteFileAtomically(each.image_file, ReadFileBytes(file));
     } else {
       WriteSrgb8(each.image_file, ReadSrgb8(file));
     }

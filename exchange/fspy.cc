@@ -71,7 +71,7 @@ std::vector<FileToWrite> FormatFspy(const ExchangeScene& scene, const std::files
   for (const ExchangeCamera& each : scene.cameras) {
     const std::string json = FspyJson(each.camera).dump();
     const std::string picture =
-        each.image_file.empty() ? std::string() : ReadTextFile(each.image_file);
+        each.image_file.empty() ? std::string() : ReadFileBytes(each.image_file);
     std::string bytes = "fspy" + FspyWord(kFspyVersion) +
                         FspyWord(static_cast<uint32_t>(json.size())) +
                         FspyWord(static_cast<uint32_t>(picture.size())) + json + picture;
@@ -81,7 +81,7 @@ std::vector<FileToWrite> FormatFspy(const ExchangeScene& scene, const std::files
 }
 
 std::vector<NamedCamera> ReadFspy(const std::filesystem::path& file) {
-  const std::string bytes = ReadTextFile(file);
+  const std::string bytes = ReadFileBytes(file);
   if (bytes.size() < kFspyHeadBytes || !bytes.starts_with("fspy")) {
     throw Error(file, "is no project of fSpy's: it does not begin with fspy");
   }

@@ -46,14 +46,14 @@ int LargestPage(const TexturedModel& textured) {
 
 // The model as a GLB of no more bytes; empty if even small pages are too much.
 std::string SmallGlb(const fs::path& folder, size_t max_bytes) {
-  std::string bytes = ReadTextFile(folder / "model.glb");
+  std::string bytes = ReadFileBytes(folder / "model.glb");
   TexturedModel textured = ReadTexturedModel(folder / "model.glb", {}).textured;
   const fs::path smaller = folder / ".report-model.glb";
   while (bytes.size() > max_bytes || LargestPage(textured) > kLargestPagePx) {
     if (LargestPage(textured) < 64) return "";
     HalvePages(textured);
     WriteGlb(smaller, textured);
-    bytes = ReadTextFile(smaller);
+    bytes = ReadFileBytes(smaller);
   }
   std::error_code error;
   fs::remove(smaller, error);

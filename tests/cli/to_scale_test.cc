@@ -59,6 +59,25 @@ TEST(ToScale, WhatCannotBeMeantIsNamed) {
   EXPECT_THAT(layers.err, HasSubstr("layers are made from an output folder"));
 }
 
+// The brick hall's cameras are off-centre, so these formats get pictures of their own.
+TEST(ToScale, PhotographsAreNeverWrittenOver) {
+  const TemporaryFolder work;
+  CopyBrick(work / "hall", {"s3"});
+  WriteAll(work / "hall/views/s3.view", ReadAll(work / "hall/views/s3.view") + "\nk1 -0.1\n");
+  const std::string before = Fingerprint(work / "hall");
+  for (const auto& [format, out] : {std::pair("meshlab", "hall/hall.mlp"),
+                                    std::pair("realitycapture", "hall/images"),
+                                    std::pair("mvs-texturing", "hall/images")}) {
+    const ProgramRun run = RunProgram({"convert", work / "hall/views", work / out, "--to", format});
+    EXPECT_EQ(run.status, 1) << format;
+    EXPECT_THAT(run.err, HasSubstr("give an output in a folder of its own")) << format;
+    EXPECT_EQ(Fingerprint(work / "hall"), before) << format;
+  }
+  EXPECT_EQ(
+      RunProgram({"convert", work / "hall/views", work / "own/hall.mlp", "--to", "meshlab"}).status,
+      0);
+}
+
 TEST(ToScale, CamerasGoToAnotherProgramAndComeBackAsViews) {
   const TemporaryFolder folder;
   CopyBrick(folder / "hall", {"s3"});
