@@ -105,7 +105,12 @@ std::string WriteCrop(const FrameArguments& arguments,
   } else {
     return "";
   }
-  if (HasPhotograph(images, scan.name)) return "not cropped, since " + images.string() + " has it";
+  const fs::path masks = images.parent_path() / "masks";
+  for (const fs::path& folder : {images, masks}) {
+    if (HasPhotograph(folder, scan.name)) {
+      return "not cropped, since " + folder.string() + " has it";
+    }
+  }
   const int width = static_cast<int>(std::lround(frame.width_px));
   const int height = static_cast<int>(std::lround(frame.height_px));
   const int left = static_cast<int>(std::lround(frame.center_px.x() - frame.width_px / 2));
@@ -113,7 +118,7 @@ std::string WriteCrop(const FrameArguments& arguments,
   const fs::path file = images / (scan.name + ".png");
   WriteSrgb8(file, Cropped(ReadSrgb8(scan.file), left, top, width, height));
   const Image16 mask = BorderMask(frame, width, height);
-  if (!mask.Empty()) WriteLabels(images.parent_path() / "masks" / (scan.name + ".png"), mask);
+  if (!mask.Empty()) WriteLabels(masks / (scan.name + ".png"), mask);
   return file.string();
 }
 
@@ -152,10 +157,12 @@ int RunCalibrateFrame(const FrameArguments& arguments) {
       } else if (video) {
         keys = KeysOfVideo(*video);
       }
+      if (!common.dry_run) WriteKnownKeys(scene, scan.name, keys, "frame");
     } catch (const Error& error) {
+      frame = {};
+      keys.clear();
       frame.reason = error.what();
     }
-    if (!common.dry_run) WriteKnownKeys(scene, scan.name, keys, "frame");
     if (common.json) {
       json.push_back(JsonFromFrame(scan.name, frame));
     } else {

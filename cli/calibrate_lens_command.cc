@@ -75,10 +75,11 @@ int CalibrateLens(const LensArguments& arguments) {
     LensFinding finding;
     try {
       finding = FindLens(photograph, scene.model, arguments);
+      if (!common.dry_run) WriteKnownKeys(scene, photograph.name, finding.keys, "lens");
     } catch (const Error& error) {
+      finding = {};
       finding.how = error.what();
     }
-    if (!common.dry_run) WriteKnownKeys(scene, photograph.name, finding.keys, "lens");
     if (common.json) {
       json.push_back(JsonFromFinding(photograph.name, finding));
     } else {

@@ -75,15 +75,17 @@ int RunCalibrateLines(const LinesArguments& arguments) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const CalibrationPhotograph& photograph : scene.photographs) {
     LinesResult result;
+    KnownKeys keys;
     try {
       LinesOptions options = arguments.options;
       if (!options.aspect) options.aspect = FindAspect(scene, photograph.name);
       result = CalibrateLines(ReadGrey8(photograph.file), options, common.seed);
+      keys = KeysOfLines(result, arguments.options);
+      if (!common.dry_run) WriteKnownKeys(scene, photograph.name, keys, "lines");
     } catch (const Error& error) {
+      result = {};
       result.reason = error.what();
     }
-    const KnownKeys keys = KeysOfLines(result, arguments.options);
-    if (!common.dry_run) WriteKnownKeys(scene, photograph.name, keys, "lines");
     if (common.json) {
       json.push_back(JsonFromLines(photograph.name, result));
     } else {

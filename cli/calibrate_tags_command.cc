@@ -129,16 +129,19 @@ int RunCalibrateTags(const TagsArguments& arguments) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const CalibrationPhotograph& photograph : scene.photographs) {
     TagsResult result;
+    KnownKeys keys;
     try {
       result = CalibrateTags(ReadGrey8(photograph.file),
                              survey,
                              FindLensTag(scene, photograph, lens),
                              arguments.options);
+      keys = KeysOfTags(result);
+      if (!common.dry_run) WriteKnownKeys(scene, photograph.name, keys, "tags");
     } catch (const Error& error) {
+      result = {};
+      keys.clear();
       result.reason = error.what();
     }
-    const KnownKeys keys = KeysOfTags(result);
-    if (!common.dry_run) WriteKnownKeys(scene, photograph.name, keys, "tags");
     if (common.json) {
       nlohmann::ordered_json own = {{"name", photograph.name}, {"found", result.is_found}};
       if (!result.is_found) own["reason"] = result.reason;

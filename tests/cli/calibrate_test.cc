@@ -50,6 +50,19 @@ TEST(Calibrate, LinesTellTheViewAngleThatATagLacksAndItsOwnNumberWins) {
   EXPECT_THAT(after.out, Not(HasSubstr("s6: v")));
 }
 
+TEST(Calibrate, OneDamagedFileDoesNotCostTheOthers) {
+  const TemporaryFolder work;
+  CopyBrick(work / "scene", {"s3", "s6"});
+  const std::string damaged = "v fifty % calibrate lines\n";
+  fs::create_directories(work / "scene/calibration");
+  WriteAll(work / "scene/calibration/s3.view", damaged);
+  const ProgramRun lines = RunProgram({"calibrate", "lines", (work / "scene").string()});
+  EXPECT_THAT(lines.out, HasSubstr("s3.view:1: key 'v': 'fifty' is not a number"));
+  EXPECT_THAT(lines.out, HasSubstr("s6: v 5"));
+  EXPECT_EQ(ReadAll(work / "scene/calibration/s3.view"), damaged);
+  EXPECT_THAT(ReadAll(work / "scene/calibration/s6.view"), HasSubstr("\nv 5"));
+}
+
 TEST(Calibrate, ALensFileGoesToRosAndComesBack) {
   const TemporaryFolder work;
   const std::string lens = work.Write("my.lens", "v 57.3\na 1.5\nshift_x 0.01\nk1 -0.1\n").string();
