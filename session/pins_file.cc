@@ -57,6 +57,7 @@ std::string_view UseWord(PinUse use) {
 
 std::vector<double> Numbers(const std::vector<std::string_view>& words,
                             size_t count,
+                            size_t num_words,
                             const std::filesystem::path& name,
                             int line) {
   std::vector<double> numbers;
@@ -67,7 +68,7 @@ std::vector<double> Numbers(const std::vector<std::string_view>& words,
     }
     numbers.push_back(*number);
   }
-  if (numbers.size() != count || words.size() > count + 1) {
+  if (words.size() != num_words) {
     throw Error(name, line, "expected 7 words, photograph x_px y_px x y z sigma_px");
   }
   if (!(numbers.back() > 0)) {
@@ -127,7 +128,8 @@ std::map<std::string, Pins> ParsePins(const std::string& text, const std::filesy
     if (!words) continue;
     Pins& pins = pins_of[words->photograph];
     if (words->kind == "line") {
-      const std::vector<double> n = Numbers(words->numbers, kLineNumbers, name, line.number);
+      const std::vector<double> n =
+          Numbers(words->numbers, kLineNumbers, kLineNumbers + 1, name, line.number);
       pins.lines.push_back({WorldFromSite({n[4], n[5], n[6]}),
                             WorldFromSite({n[7], n[8], n[9]}),
                             {n[0], n[1]},
@@ -136,7 +138,8 @@ std::map<std::string, Pins> ParsePins(const std::string& text, const std::filesy
                             UseOf(words->numbers.back())});
       continue;
     }
-    const std::vector<double> n = Numbers(words->numbers, kPointNumbers, name, line.number);
+    const std::vector<double> n =
+        Numbers(words->numbers, kPointNumbers, kPointNumbers, name, line.number);
     pins.points.push_back(
         {WorldFromSite({n[2], n[3], n[4]}), {n[0], n[1]}, n[5], UseOf(words->kind)});
   }
@@ -147,9 +150,10 @@ std::string ReplacePins(const std::string& text, const std::string& photograph, 
   std::string kept;
   size_t place = std::string::npos;  // where the photograph's lines were
   size_t start = 0;
-  for (const TextLine& line : SplitLines(text)) {
-    const std::optional<PinLine> words = WordsOf(line, text);
-    const size_t end = std::min(text.find('\n', line.offset + line.size), text.size() - 1) + 1;
+  const std::vector<TextLine> lines = SplitLines(text);
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const std::optional<PinLine> words = WordsOf(lines[i], text);
+    const size_t end = i + 1 < lines.size() ? lines[i + 1].offset : text.size();
     if (words && words->photograph == photograph) {
       place = std::min(place, kept.size());
     } else {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 std::optional<std::string> BytesOf(const fs::path& file) {
   std::error_code ignored;
   if (file.empty() || !fs::is_regular_file(file, ignored)) return std::nullopt;
-  return ReadTextFile(file);
+  return ReadFileBytes(file);
 }
 
 void Widen(double factor, TagSigmas& sigmas) {
@@ -257,7 +257,7 @@ std::string Session::ViewBytes(int photograph) const {
 
 // Nothing: there is no file.
 std::optional<std::string> Session::PinsBytes(int photograph) const {
-  bool are_loaded = true;
+  bool are_loaded = !have_others_written_;
   for (size_t i = 0; i < states_.size(); ++i) {
     const State& state = states_[i];
     const bool is_written = static_cast<int>(i) == photograph;
@@ -287,8 +287,18 @@ SaveResult Session::Save(int photograph, bool over_others) {
               saved.view_file.string() + " or " + pins_file_.filename().string() +
                   " was changed by somebody else since it was read"};
     }
+    const PhotographWork& work = state.current;
+    if (!(work.pins == Pins()) && saved.name.find_first_of(" \t") != std::string::npos) {
+      throw Error("the name " + Quote(saved.name) +
+                  " holds a blank, at which a points file parts its words; rename the photograph");
+    }
+    // What others wrote meanwhile for other photographs stays.
+    const std::optional<std::string> on_disk = BytesOf(pins_file_);
+    have_others_written_ = have_others_written_ || on_disk != pins_on_disk_;
+    pins_on_disk_ = on_disk;
     std::optional<std::string> view;
-    if (state.current == state.loaded) {
+    // What alignment said is in no file.
+    if (!work.accepted && work.pins == state.loaded.pins && work.tag == state.loaded.tag) {
       view = state.loaded_view;
     } else if (TagOf(photograph)) {
       view = ViewBytes(photograph);

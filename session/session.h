@@ -116,6 +116,7 @@ class Session {
   SessionOptions options_;
   std::filesystem::path pins_file_;
   std::optional<std::string> loaded_pins_;
+  bool have_others_written_ = false;  // into the file of pins, since it was loaded
   std::optional<std::string> pins_on_disk_;
   std::string tags_elsewhere_;  // why view files cannot be written; empty if they can
   std::vector<SessionPhotograph> photographs_;

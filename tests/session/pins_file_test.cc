@@ -57,7 +57,15 @@ TEST(PinsFile, OtherLinesStayByteForByte) {
   EXPECT_EQ(ReplacePins(ReplacePins("", "s5", FourAndALine()), "s5", {}), "");
 }
 
+TEST(PinsFile, LinesThatEndAsOnOldMacintoshesStay) {
+  const std::string text = "s4 1 2 3 4 5 2\rs5 9 9 9 9 9 2\rs6 1 2 3 4 5 2\r";
+  const std::string replaced = ReplacePins(text, "s5", {});
+  EXPECT_EQ(replaced.substr(0, 30), "s4 1 2 3 4 5 2\rs6 1 2 3 4 5 2\r");
+}
+
 TEST(PinsFile, ALineAtFaultIsNamed) {
+  EXPECT_THAT(ThrownMessage([] { ParsePins("s5 1 2 3 4 5 6 7", "p.points"); }),
+              HasSubstr("7 words"));
   EXPECT_THAT(ThrownMessage([] { ParsePins("\ns5 1 2 x 4 5 6", "p.points"); }),
               HasSubstr("p.points:2: 'x' is not a finite number"));
   EXPECT_THAT(ThrownMessage([] { ParsePins("s5 1 2 3 4 5 0", "p.points"); }),

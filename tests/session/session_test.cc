@@ -9,6 +9,7 @@
 #include "scene/formats/view_io.h"
 #include "session/bindings.h"
 #include "session/frame_governor.h"
+#include "session/pins_file.h"
 #include "tests/register/house.h"
 #include "tests/support/spoilt_options.h"
 #include "tests/support/temporary_folder.h"
@@ -122,6 +123,54 @@ TEST_F(SessionOnAScene, PinsThatWereSavedAreThereAgainAndSolveToTheSameCamera) {
   EXPECT_EQ(session.work(s1).pins, FivePins());
   EXPECT_FALSE(session.IsUnsaved(s1));
   EXPECT_LT((session.CameraOf(s1)->PositionInWorld() - before).norm(), 0.2);
+}
+
+TEST_F(SessionOnAScene, SavingWhatAlignmentSaidChangesNoFile) {
+  {
+    Session session = Open();
+    const int s1 = *session.FindPhotograph("s1");
+    session.Change(s1, With(session, s1, FivePins()));
+    ASSERT_EQ(session.Save(s1).kind, SaveResult::Kind::kSaved);
+  }
+  const std::string view = Bytes(folder_ / "views/s1.view");
+  const std::string pins = Bytes(folder_ / "pins.points");
+  Session session = Open();
+  const int s1 = *session.FindPhotograph("s1");
+  PhotographWork work = session.work(s1);
+  work.alignment.emplace();
+  session.Change(s1, work);
+  ASSERT_EQ(session.Save(s1).kind, SaveResult::Kind::kSaved);
+  EXPECT_EQ(Bytes(folder_ / "views/s1.view"), view) << "sigmas that were widened to reopen it";
+  EXPECT_EQ(Bytes(folder_ / "pins.points"), pins);
+}
+
+TEST_F(SessionOnAScene, KeepingMineKeepsOthersPinsOfOtherPhotographs) {
+  Session session = Open();
+  const int s1 = *session.FindPhotograph("s1");
+  session.Change(s1, With(session, s1, FivePins()));
+  const std::string others = ReplacePins("", "s2", FivePins());
+  folder_.Write("pins.points", others);
+  ASSERT_EQ(session.Save(s1).kind, SaveResult::Kind::kChangedOnDisk);
+  ASSERT_EQ(session.Save(s1, true).kind, SaveResult::Kind::kSaved);
+  const std::string kept = Bytes(folder_ / "pins.points");
+  EXPECT_EQ(kept.substr(0, others.size()), others);
+  EXPECT_EQ(ParsePins(kept, "pins.points").at("s1"), FivePins());
+  // Back to none of one's own: theirs are still there.
+  ASSERT_TRUE(session.Undo(s1));
+  ASSERT_EQ(session.Save(s1).kind, SaveResult::Kind::kSaved);
+  EXPECT_EQ(Bytes(folder_ / "pins.points"), others);
+}
+
+TEST_F(SessionOnAScene, PinsOfANameWithABlankAreRefusedInWords) {
+  fs::rename(folder_ / "images/s1.png", folder_ / "images/s 1.png");
+  fs::rename(folder_ / "views/s1.view", folder_ / "views/s 1.view");
+  Session session = Open();
+  const int photograph = *session.FindPhotograph("s 1");
+  session.Change(photograph, With(session, photograph, FivePins()));
+  const SaveResult refused = session.Save(photograph);
+  EXPECT_EQ(refused.kind, SaveResult::Kind::kFailed);
+  EXPECT_THAT(refused.message, HasSubstr("'s 1' holds a blank"));
+  EXPECT_FALSE(fs::exists(folder_ / "pins.points"));
 }
 
 TEST_F(SessionOnAScene, StepsOfOneGestureAreOneStepBack) {
