@@ -122,6 +122,8 @@ class App {
   void PressInTag(const Eigen::Vector2d& pane_px);
   void DragInTag(const Eigen::Vector2d& pane_px, const Eigen::Vector2d& by_px, bool is_slow);
   void ReleaseInTag(const Eigen::Vector2d& pane_px);
+  void LetGo();
+  bool HasPin(const Pins& pins) const;  // whether pin_ is one of them
   void PlacePin(const Eigen::Vector3d& point_in_world, const Eigen::Vector2d& image_px);
   void ChangePins(const Pins& pins, const std::string& gesture = "");
   void StandThere(const Eigen::Vector3d& stood_in_world, const Eigen::Vector3d& looked_in_world);
@@ -253,6 +255,7 @@ class App {
   std::vector<VisibleCorner> corners_;
   std::future<AlignmentNews> alignment_;
   int aligned_photograph_ = -1;
+  PhotographWork aligned_work_;  // as it was when alignment began
 
   // Ask.
   std::vector<Place> places_;

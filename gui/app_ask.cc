@@ -12,6 +12,7 @@ void App::AskAt(const Eigen::Vector2d& pane_px, bool adds) {
   const int index = static_cast<int>(places_.size());
   try {
     std::optional<int> asked;
+    message_.clear();
     for (size_t i = 0; IsInside() && i < survey_.photographs.size(); ++i) {
       if (survey_.photographs[i].name == session_.photographs()[photograph_].name) {
         asked = static_cast<int>(i);
@@ -20,10 +21,12 @@ void App::AskAt(const Eigen::Vector2d& pane_px, bool adds) {
     if (asked) {
       places_.push_back(
           PlaceInPhotograph(survey_, visibility_, *asked, place_.InPhotograph(pane_px), index));
+    } else if (IsInside()) {
+      message_ = session_.photographs()[photograph_].name +
+                 " has no camera yet that can be asked; ask on the model, or tag it first";
     } else if (const auto pick = PickFace(visibility_, PaneCamera(), pane_px)) {
       places_.push_back(PlaceOnModel(survey_, pick->point_in_world, index));
     }
-    message_.clear();
   } catch (const Error& error) {
     message_ = error.what();
   }
@@ -34,7 +37,11 @@ void App::AskAgain() {
   crops_.clear();
   answer_.reset();
   if (places_.empty()) return;
-  answer_ = AnswerPlaces(survey_, visibility_, places_);
+  try {
+    answer_ = AnswerPlaces(survey_, visibility_, places_);
+  } catch (const Error& error) {
+    message_ = error.what();
+  }
 }
 
 }  // namespace groundglass

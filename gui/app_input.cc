@@ -92,10 +92,11 @@ bool App::DoEverywhere(Action action) {
       return true;
     case Action::kUndo:
       if (photograph_ >= 0 && !session_.Undo(photograph_)) message_ = "nothing to undo";
-      pin_.reset();
+      LetGo();
       return true;
     case Action::kRedo:
       if (photograph_ >= 0 && !session_.Redo(photograph_)) message_ = "nothing to do again";
+      LetGo();
       return true;
     case Action::kSave:
       Save();

@@ -71,6 +71,21 @@ void App::ChangePins(const Pins& pins, const std::string& gesture) {
   session_.Change(photograph_, std::move(work), gesture);
 }
 
+// What is under way on pins that may not be there any more.
+void App::LetGo() {
+  pin_.reset();
+  armed_point_.reset();
+  new_line_.reset();
+  pin_is_due_ = false;
+  if (gesture_ == Gesture::kPin || gesture_ == Gesture::kLine || gesture_ == Gesture::kNewPin) {
+    gesture_ = Gesture::kNone;
+  }
+}
+
+bool App::HasPin(const Pins& pins) const {
+  return pin_ && *pin_ >= 0 && static_cast<size_t>(*pin_) < pins.points.size() + pins.lines.size();
+}
+
 void App::PlacePin(const Eigen::Vector3d& point_in_world, const Eigen::Vector2d& image_px) {
   Pins pins = session_.work(photograph_).pins;
   const auto same = std::find_if(pins.points.begin(), pins.points.end(), [&](const PointPin& pin) {
@@ -157,11 +172,11 @@ void App::DragInTag(const Eigen::Vector2d& pane_px, const Eigen::Vector2d& by_px
   if (!has_moved_) return;
   Pins pins = session_.work(photograph_).pins;
   const Eigen::Vector2d by = by_px / place_.scale * (is_slow ? 0.1 : 1);
-  if (gesture_ == Gesture::kNewPin) {
+  if (gesture_ == Gesture::kNewPin && armed_point_) {
     PlacePin(session_.model().points_in_world[*armed_point_], place_.InPhotograph(pane_px));
     return;
   }
-  if (gesture_ == Gesture::kPin) {
+  if (gesture_ == Gesture::kPin && HasPin(pins)) {
     pins.points[*pin_].image_px += by;
     ChangePins(pins, "pin " + std::to_string(gesture_number_));
   } else if (gesture_ == Gesture::kLine) {
@@ -170,6 +185,7 @@ void App::DragInTag(const Eigen::Vector2d& pane_px, const Eigen::Vector2d& by_px
       new_line_.reset();
       pin_ = static_cast<int>(pins.points.size() + pins.lines.size()) - 1;
     }
+    if (!HasPin(pins)) return;
     LinePin& line = pins.lines[*pin_ - pins.points.size()];
     if (line_end_ != 1) line.first_px += by;
     if (line_end_ != 0) line.second_px += by;
@@ -179,7 +195,7 @@ void App::DragInTag(const Eigen::Vector2d& pane_px, const Eigen::Vector2d& by_px
 
 void App::ReleaseInTag(const Eigen::Vector2d& pane_px) {
   new_line_.reset();
-  if (gesture_ == Gesture::kNewPin) {
+  if (gesture_ == Gesture::kNewPin && armed_point_) {
     const Eigen::Vector3d& point = session_.model().points_in_world[*armed_point_];
     const Eigen::Vector2d* seen = nullptr;
     for (const VisibleCorner& corner : corners_) {
@@ -212,6 +228,7 @@ void App::StandThere(const Eigen::Vector3d& stood_in_world,
                       session_.options().rough);
   work.alignment.reset();
   work.accepted.reset();
+  work.overruled.clear();
   session_.Change(photograph_, std::move(work));
   session_.EndGesture();
 }
@@ -234,18 +251,19 @@ void App::ToggleCropped() {
   work.tag->sigmas.shift = IsCropped() ? rough.shift : rough.cropped_shift;
   work.alignment.reset();
   work.accepted.reset();
+  work.overruled.clear();
   session_.Change(photograph_, std::move(work));
 }
 
 void App::NudgePin(const KeyPress& press) {
-  if (!pin_) return;
+  Pins pins = session_.work(photograph_).pins;
+  if (!HasPin(pins)) return;
   const double step = press.ctrl ? 10 : press.shift ? 1 : 0.1;
   Eigen::Vector2d by(0, 0);
   if (press.key == "Left") by.x() = -step;
   if (press.key == "Right") by.x() = step;
   if (press.key == "Up") by.y() = -step;
   if (press.key == "Down") by.y() = step;
-  Pins pins = session_.work(photograph_).pins;
   const size_t index = *pin_;
   if (index < pins.points.size()) {
     pins.points[index].image_px += by;
@@ -288,8 +306,8 @@ void App::TakeCorner() {
 }
 
 void App::CycleUse() {
-  if (!pin_) return;
   Pins pins = session_.work(photograph_).pins;
+  if (!HasPin(pins)) return;
   const size_t index = *pin_;
   PinUse& use = index < pins.points.size() ? pins.points[index].use
                                            : pins.lines[index - pins.points.size()].use;
@@ -300,15 +318,15 @@ void App::CycleUse() {
 }
 
 void App::RemovePin() {
-  if (!pin_) return;
   Pins pins = session_.work(photograph_).pins;
+  if (!HasPin(pins)) return;
   const size_t index = *pin_;
   if (index < pins.points.size()) {
     pins.points.erase(pins.points.begin() + static_cast<std::ptrdiff_t>(index));
   } else {
     pins.lines.erase(pins.lines.begin() + static_cast<std::ptrdiff_t>(index - pins.points.size()));
   }
-  pin_.reset();
+  LetGo();
   ChangePins(pins);
 }
 
@@ -324,6 +342,7 @@ void App::Align() {
   ViewTag tag = solution->tag;
   tag.sigmas = work.tag->sigmas;
   aligned_photograph_ = photograph_;
+  aligned_work_ = work;
   alignment_ = std::async(std::launch::async,
                           AlignOne,
                           session_.photographs()[photograph_],
@@ -336,7 +355,15 @@ void App::Align() {
 void App::TakeAlignment() {
   try {
     PhotographWork work = session_.work(aligned_photograph_);
-    work.alignment = alignment_.get();
+    AlignmentNews news = alignment_.get();
+    if (!(work.tag == aligned_work_.tag) || !(work.pins == aligned_work_.pins)) {
+      message_ = session_.photographs()[aligned_photograph_].name +
+                 " was changed while it was aligned: A aligns again";
+      return;
+    }
+    work.alignment = std::move(news);
+    work.accepted.reset();
+    work.overruled.clear();
     message_ = session_.photographs()[aligned_photograph_].name + ": " +
                std::string(VerdictName(work.alignment->verdict));
     if (work.alignment->verdict == Verdict::kAccepted) work.accepted = work.alignment->corrected;

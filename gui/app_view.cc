@@ -98,8 +98,7 @@ void App::MoveEye(const Eye& eye) {
 
 void App::Choose(int photograph, bool enter) {
   photograph_ = photograph;
-  pin_.reset();
-  armed_point_.reset();
+  LetGo();
   session_.EndGesture();
   message_.clear();
   if (!enter) return;

@@ -60,10 +60,18 @@ void PictureWorker::Run(const TexturedModel& model) {
         next_.reset();
         is_drawing_ = true;
       }
-      Picture picture = maker.Make(request);
+      // One that cannot be drawn does not end the others.
+      std::optional<Picture> picture;
+      std::string fault;
+      try {
+        picture = maker.Make(request);
+      } catch (const std::exception& error) {
+        fault = error.what();
+      }
       {
         const std::lock_guard lock(mutex_);
-        done_ = std::move(picture);
+        if (picture) done_ = std::move(picture);
+        fault_ = fault;
         is_drawing_ = false;
       }
       on_done_();
@@ -140,17 +148,15 @@ void PhotographCache::Run() {
       photograph = *NextToRead();
     }
     Image8 picture;
+    Image8 thumbnail;
     std::string fault;
     try {
       picture = ReadSrgb8(files_[photograph]);
-    } catch (const std::exception& error) {
-      fault = error.what();
-    }
-    Image8 thumbnail;
-    if (fault.empty()) {
       const int width = std::min(kThumbnailWidth, picture.width);
       const int height = std::max(1, picture.height * width / picture.width);
       thumbnail = ReducedInLight(picture, width, height);
+    } catch (const std::exception& error) {
+      fault = error.what();
     }
     {
       const std::lock_guard lock(mutex_);
