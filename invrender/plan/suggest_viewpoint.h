@@ -14,8 +14,8 @@ namespace groundglass {
 
 // From where a place on a face could be photographed: before the face, as square to it as can be,
 // as far as the face is large, with nothing of the model between; at eye level above
-// the model's lowest point if that works. Nothing if every such place is hidden, under the ground or
-// under a roof.
+// the model's lowest point if that works. Nothing if every such place is hidden, under the ground
+// or under a roof.
 std::optional<Eigen::Vector3d> SuggestViewpoint(const PolygonModel& model,
                                                 const Visibility& visibility,
                                                 int face,
