@@ -9,6 +9,7 @@
 #include "scene/formats/scene_folder.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace groundglass {
 namespace {
@@ -20,7 +21,7 @@ SurveyPhotograph AsWritten(const Photograph& photograph, const PolygonModel& mod
                                             photograph.size.width,
                                             photograph.size.height,
                                             model.unit,
-                                            std::nullopt,
+                                            photograph.lens,
                                             PriorSuitedTo(model, {}));
   return {photograph.name,
           photograph.size.width,
@@ -79,6 +80,12 @@ Scene ReadSceneToAsk(const fs::path& folder, const ModelOptions& options) {
 
 }  // namespace
 
+bool IsSameModel(const PolygonModel& a, const PolygonModel& b) {
+  if (a.faces.size() != b.faces.size() || a.faces.empty()) return false;
+  const double size_a = ComputeBounds(a).Diagonal();
+  return std::abs(ComputeBounds(b).Diagonal() - size_a) < 0.01 * size_a;
+}
+
 Survey ReadSurvey(const fs::path& folder,
                   const fs::path& scene_folder,
                   const ModelOptions& options) {
@@ -98,9 +105,9 @@ Survey ReadSurvey(const fs::path& folder,
   const fs::path textured_file = folder / "model.glb";
   if (fs::exists(textured_file)) {
     TexturedModel textured = ReadTexturedModel(textured_file, options).textured;
-    if (scene_folder.empty()) survey.model = textured.model;
-    // The scene's model may have been changed since.
-    if (textured.faces.size() == survey.model.faces.size()) survey.textures = textured.faces;
+    // The cameras belong to the model that they were found with.
+    if (!IsSameModel(survey.model, textured.model)) survey.model = textured.model;
+    survey.textures = textured.faces;
   } else if (scene_folder.empty()) {
     throw Error(folder, "has no model.glb; say where the model is with --scene");
   }

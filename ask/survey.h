@@ -53,4 +53,8 @@ Survey ReadSurvey(const std::filesystem::path& folder,
 // or why the photograph is left out.
 int FindSurveyPhotograph(const Survey& survey, const std::string& word);
 
+// Whether two models are one in one unit: as many faces, and as large. Those that cameras were
+// found with and that a scene holds now may differ, if only in unit.
+bool IsSameModel(const PolygonModel& a, const PolygonModel& b);
+
 }  // namespace groundglass

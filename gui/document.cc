@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "gui/document.h"
 
+#include "ask/survey.h"
 #include "scene/error.h"
 #include "scene/formats/registration_io.h"
 #include "scene/formats/scene_folder.h"
@@ -44,10 +45,9 @@ Document OpenDocument(const WindowOptions& options) {
   }
   if (is_output && fs::exists(folder / "model.glb")) {
     TexturedModel textured = ReadTexturedModel(folder / "model.glb", options.model).textured;
-    const size_t expected = document.scene.model.faces.size();
-    if (expected == 0 || textured.model.faces.size() == expected) {
-      document.textured = std::move(textured);
-      if (expected == 0) document.scene.model = document.textured.model;
+    document.textured = std::move(textured);
+    if (!IsSameModel(document.scene.model, document.textured.model)) {
+      document.scene.model = document.textured.model;
     }
   }
   if (document.textured.model.faces.empty()) {
