@@ -7,6 +7,7 @@
 #include "scene/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -35,6 +36,19 @@ std::pair<int, int> ReadPictureSize(const std::string& text) {
   throw CLI::ValidationError("--size", "expected WIDTHxHEIGHT, as in 1500x1000");
 }
 
+// Sides that make pixels nearly square only when they are exchanged are those of a picture that was
+// turned.
+void CheckSides(const Lens& lens, int width, int height) {
+  const double sides = static_cast<double>(width) / height;
+  const double as_given = std::abs(std::log(lens.aspect / sides));
+  const double exchanged = std::abs(std::log(lens.aspect * sides));
+  if (as_given < 0.2 || exchanged >= as_given) return;
+  throw Error("--size " + std::to_string(width) + "x" + std::to_string(height) +
+              ": the lens has a " + FormatNumber(lens.aspect) +
+              ", width / height of its frame; is it " + std::to_string(height) + "x" +
+              std::to_string(width) + "?");
+}
+
 int ExportLens(const ExportArguments& arguments) {
   const Lens lens = ReadLens(arguments.lens_file);
   std::string text;
@@ -43,6 +57,7 @@ int ExportLens(const ExportArguments& arguments) {
   } else {
     if (arguments.size.empty()) throw CLI::RequiredError("--size WIDTHxHEIGHT");
     const auto [width, height] = ReadPictureSize(arguments.size);
+    CheckSides(lens, width, height);
     const auto name = std::find(kLensFormatNames.begin(), kLensFormatNames.end(), arguments.format);
     text = FormatForeignLens(
         lens, static_cast<LensFormat>(name - kLensFormatNames.begin()), width, height);

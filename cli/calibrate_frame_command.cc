@@ -140,6 +140,7 @@ int RunCalibrateFrame(const FrameArguments& arguments) {
   const CalibrationScene scene =
       ReadCalibrationScene(arguments.calibration, has_scans ? "scans" : "images");
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  size_t num_failed = 0;
   for (const CalibrationPhotograph& scan : scene.photographs) {
     SlideFrame frame;
     KnownKeys keys;
@@ -159,6 +160,7 @@ int RunCalibrateFrame(const FrameArguments& arguments) {
       }
       if (!common.dry_run) WriteKnownKeys(scene, scan.name, keys, "frame");
     } catch (const Error& error) {
+      ++num_failed;
       frame = {};
       keys.clear();
       frame.reason = error.what();
@@ -175,7 +177,7 @@ int RunCalibrateFrame(const FrameArguments& arguments) {
     }
   }
   if (common.json) PrintJson({{"photographs", json}});
-  return kExitDone;
+  return ExitOfCalibration(num_failed, scene.photographs.size());
 }
 
 }  // namespace

@@ -71,12 +71,14 @@ int CalibrateLens(const LensArguments& arguments) {
   const CommonOptions& common = arguments.calibration.common;
   const CalibrationScene scene = ReadCalibrationScene(arguments.calibration);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  size_t num_failed = 0;
   for (const CalibrationPhotograph& photograph : scene.photographs) {
     LensFinding finding;
     try {
       finding = FindLens(photograph, scene.model, arguments);
       if (!common.dry_run) WriteKnownKeys(scene, photograph.name, finding.keys, "lens");
     } catch (const Error& error) {
+      ++num_failed;
       finding = {};
       finding.how = error.what();
     }
@@ -87,7 +89,7 @@ int CalibrateLens(const LensArguments& arguments) {
     }
   }
   if (common.json) PrintJson({{"photographs", json}});
-  return kExitDone;
+  return ExitOfCalibration(num_failed, scene.photographs.size());
 }
 
 }  // namespace

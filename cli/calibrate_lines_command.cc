@@ -73,6 +73,7 @@ int RunCalibrateLines(const LinesArguments& arguments) {
   const CommonOptions& common = arguments.calibration.common;
   const CalibrationScene scene = ReadCalibrationScene(arguments.calibration);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  size_t num_failed = 0;
   for (const CalibrationPhotograph& photograph : scene.photographs) {
     LinesResult result;
     KnownKeys keys;
@@ -83,6 +84,7 @@ int RunCalibrateLines(const LinesArguments& arguments) {
       keys = KeysOfLines(result, arguments.options);
       if (!common.dry_run) WriteKnownKeys(scene, photograph.name, keys, "lines");
     } catch (const Error& error) {
+      ++num_failed;
       result = {};
       result.reason = error.what();
     }
@@ -93,7 +95,7 @@ int RunCalibrateLines(const LinesArguments& arguments) {
     }
   }
   if (common.json) PrintJson({{"photographs", json}});
-  return kExitDone;
+  return ExitOfCalibration(num_failed, scene.photographs.size());
 }
 
 }  // namespace

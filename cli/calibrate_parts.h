@@ -4,6 +4,8 @@
 
 #include "cli/commands.h"
 
+#include <cstddef>
+
 namespace groundglass {
 
 // Each adds a subcommand of `calibrate`. One file each.
@@ -13,5 +15,11 @@ void AddCalibrateFrame(CLI::App* calibrate, int& exit_status);
 void AddCalibrateLens(CLI::App* calibrate, int& exit_status);
 void AddCalibrateLines(CLI::App* calibrate, int& exit_status);
 void AddCalibrateTags(CLI::App* calibrate, int& exit_status);
+
+// The exit status of a subcommand that could not do its work for so many of the photographs.
+inline int ExitOfCalibration(size_t num_failed, size_t num_photographs) {
+  if (num_failed == 0) return kExitDone;
+  return num_failed == num_photographs ? kExitWrongInput : kExitNeedsReview;
+}
 
 }  // namespace groundglass

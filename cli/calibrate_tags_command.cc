@@ -127,6 +127,7 @@ int RunCalibrateTags(const TagsArguments& arguments) {
   std::optional<Lens> lens;
   if (arguments.lens_file) lens = ReadLens(*arguments.lens_file);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  size_t num_failed = 0;
   for (const CalibrationPhotograph& photograph : scene.photographs) {
     TagsResult result;
     KnownKeys keys;
@@ -138,6 +139,7 @@ int RunCalibrateTags(const TagsArguments& arguments) {
       keys = KeysOfTags(result);
       if (!common.dry_run) WriteKnownKeys(scene, photograph.name, keys, "tags");
     } catch (const Error& error) {
+      ++num_failed;
       result = {};
       keys.clear();
       result.reason = error.what();
@@ -158,7 +160,7 @@ int RunCalibrateTags(const TagsArguments& arguments) {
     }
   }
   if (common.json) PrintJson({{"photographs", json}});
-  return kExitDone;
+  return ExitOfCalibration(num_failed, scene.photographs.size());
 }
 
 }  // namespace

@@ -63,6 +63,38 @@ TEST(Calibrate, OneDamagedFileDoesNotCostTheOthers) {
   EXPECT_THAT(ReadAll(work / "scene/calibration/s6.view"), HasSubstr("\nv 5"));
 }
 
+TEST(Calibrate, WhatCannotBeReadIsNoSuccess) {
+  const TemporaryFolder work;
+  const std::string missing = (work / "none.jpg").string();
+  const std::string text = work.Write("text.jpg", "no picture").string();
+  const std::string good =
+      std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick/images/s3.jpg";
+  for (const char* what : {"lens", "lines", "frame"}) {
+    EXPECT_EQ(RunProgram({"calibrate", what, missing}).status, 1) << what;
+    EXPECT_EQ(RunProgram({"calibrate", what, text}).status, 1) << what;
+  }
+  const ProgramRun some = RunProgram({"calibrate", "lens", text, good});
+  EXPECT_EQ(some.status, 3);
+  EXPECT_THAT(some.out, HasSubstr("s3: the picture's metadata say no focal length"));
+}
+
+TEST(Calibrate, ALensOfAnotherShapeThanThePictureIsNotExported) {
+  const TemporaryFolder work;
+  const std::string lens = work.Write("my.lens", "v 57.3\na 1.5\n").string();
+  const ProgramRun turned = RunProgram({"calibrate",
+                                        "export",
+                                        lens,
+                                        "-o",
+                                        (work / "ros.yaml").string(),
+                                        "--format",
+                                        "ros",
+                                        "--size",
+                                        "1000x1500"});
+  EXPECT_EQ(turned.status, 1);
+  EXPECT_THAT(turned.err, HasSubstr("is it 1500x1000?"));
+  EXPECT_FALSE(fs::exists(work / "ros.yaml"));
+}
+
 TEST(Calibrate, ALensFileGoesToRosAndComesBack) {
   const TemporaryFolder work;
   const std::string lens = work.Write("my.lens", "v 57.3\na 1.5\nshift_x 0.01\nk1 -0.1\n").string();
