@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -173,8 +174,9 @@ std::vector<std::string> DescribeAccuracy(const DrawingAccuracy& accuracy) {
                         ", for the slant of the photographs.");
   }
   if (accuracy.untextured_share > 0) {
-    sentences.push_back("No photograph shows " + Percent(accuracy.untextured_share) +
-                        " of what is drawn.");
+    const std::string share = Percent(accuracy.untextured_share);
+    sentences.push_back(static_cast<char>(std::toupper(share[0])) + share.substr(1) +
+                        " of what is drawn is in no photograph.");
   }
   return sentences;
 }

@@ -32,13 +32,14 @@ MeshReading ReadMesh(const std::filesystem::path& file,
                      const ModelOptions& options,
                      bool with_pages) {
   const bool is_gltf = extension == ".glb" || extension == ".gltf";
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw Error(file, "no such model file");
   if (!is_gltf && extension != ".obj" && extension != ".ply" && extension != ".stl") {
     throw Error(
         file,
         "this kind of model is not read; export it as .glb, .gltf, .obj, .ply or .stl from the "
         "program that made it, or write it as .osu");
   }
-  std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) throw Error(file, "no such model file");
   if (std::filesystem::file_size(file, error) == 0 && !error) {
     throw Error(file,
