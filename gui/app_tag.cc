@@ -24,6 +24,7 @@ AlignmentNews AlignOne(const SessionPhotograph& photograph,
   input.grey8 = ReadGrey8(photograph.image_file);
   if (photograph.mask_file) input.ignore = ReadIgnoreMask(*photograph.mask_file, photograph.size);
   input.measured = tag;
+  input.lens = photograph.lens;
   RegisterOptions options;
   for (const PointPin& pin : pins.points) {
     if (pin.use != PinUse::kUsed) continue;

@@ -211,6 +211,7 @@ void PinSolverOptions::Check() const {
   CheckFromTo(max_iterations, 1, 10000, "pin solver options: max_iterations");
   CheckAbove(bad_pin_sigmas, 0, "pin solver options: bad_pin_sigmas");
   CheckFromTo(free_share, 0, 1, "pin solver options: free_share");
+  prior.Check();
 }
 
 PinSolution SolvePins(const ViewTag& tag,
@@ -218,12 +219,13 @@ PinSolution SolvePins(const ViewTag& tag,
                       int width_px,
                       int height_px,
                       LengthUnit unit,
+                      const std::optional<Lens>& lens,
                       const Pins& pins,
                       const PinSolverOptions& options) {
   options.Check();
   PinSolution solution;
   solution.tag = tag;
-  CameraPrior prior = MakeCameraPrior(tag, width_px, height_px, unit, std::nullopt, {});
+  CameraPrior prior = MakeCameraPrior(tag, width_px, height_px, unit, lens, options.prior);
   solution.prior_sigmas = prior.sigmas;
   const CameraCovariance all_known = prior.root * prior.root.transpose();
   const int num_used = CountUsed(pins);

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
+#include "register/register.h"
+#include "scene/formats/lens.h"
 #include "scene/length_unit.h"
 #include "scene/registration.h"
 #include "session/pins.h"
@@ -19,6 +21,8 @@ struct PinSolverOptions {
   double bad_pin_sigmas = 3;
   // A number that pins make so much surer than it was is free; else what was known holds it.
   double free_share = 0.7;
+  // What tags are taken to be sure of that do not say it.
+  PriorOptions prior;
 
   void Check() const;  // throws Error naming the first field out of range
 };
@@ -54,12 +58,14 @@ struct PinSolution {
 // not given are a tape's and a tripod's) and the pins. A single point aims the camera where it
 // stands; two turn and move it along its view as well; from three on (a line counts as one) all
 // eleven numbers are solved for. start: the camera to begin with, as a tag, such as the last
-// solution; the prior is `tag`'s. Never throws for pins that do not fit: then `fault` says why.
+// solution; the prior is `tag`'s, with `lens` where the tag says no view angle. Never throws for
+// pins that do not fit: then `fault` says why.
 PinSolution SolvePins(const ViewTag& tag,
                       const std::optional<ViewTag>& start,
                       int width_px,
                       int height_px,
                       LengthUnit unit,
+                      const std::optional<Lens>& lens,
                       const Pins& pins,
                       const PinSolverOptions& options = {});
 

@@ -78,6 +78,7 @@ Session::Session(const Scene& scene, const fs::path& journal_file, const Session
       journal_(journal_file),
       has_journal_(!journal_file.empty()) {
   options_.Check();
+  options_.solver.prior = PriorSuitedTo(model_, options_.solver.prior);
   if (!scene.camera_files.empty()) {
     tags_elsewhere_ = scene.camera_files.front().string() + " has this scene's cameras";
   } else if (fs::exists(scene.folder / "tags.csv")) {
@@ -117,7 +118,8 @@ void Session::Add(const Photograph& photograph, const std::string& fault, const 
                           photograph.mask_file,
                           photograph.size,
                           photograph.view_file,
-                          fault});
+                          fault,
+                          photograph.lens});
   State& state = states_.emplace_back();
   state.loaded_view = state.view_on_disk = BytesOf(photograph.view_file);
   state.loaded.tag = photograph.tag;
@@ -152,8 +154,14 @@ const std::optional<PinSolution>& Session::Solution(int photograph) const {
   if (state.solution && state.solution->is_solved && state.solved_tag == current.tag) {
     start = state.solution->tag;
   }
-  state.solution = SolvePins(
-      *current.tag, start, size.width, size.height, model_.unit, current.pins, options_.solver);
+  state.solution = SolvePins(*current.tag,
+                             start,
+                             size.width,
+                             size.height,
+                             model_.unit,
+                             photographs_[photograph].lens,
+                             current.pins,
+                             options_.solver);
   state.solved_tag = current.tag;
   state.solved_pins = current.pins;
   return state.solution;

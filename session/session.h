@@ -36,6 +36,7 @@ struct SessionPhotograph {
   ImageSize size;                   // 0 x 0 if it cannot be read
   std::filesystem::path view_file;  // where its tag is, or will be
   std::string fault;                // why it cannot be worked on; empty if it can
+  std::optional<Lens> lens = {};    // where its tag says no view angle (Photograph)
 };
 
 // What became of saving.

@@ -59,7 +59,7 @@ ViewTag Rough(bool is_cropped = false) {
 }
 
 PinSolution Solve(const ViewTag& tag, const Pins& pins) {
-  return SolvePins(tag, std::nullopt, kWidth, kHeight, LengthUnit::kFoot, pins);
+  return SolvePins(tag, std::nullopt, kWidth, kHeight, LengthUnit::kFoot, std::nullopt, pins);
 }
 
 double ErrorPx(const ViewTag& truth, const PinSolution& solution) {
