@@ -90,9 +90,11 @@ function(groundglass_test room)
   add_executable(${target} ${T_SOURCES})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PRIVATE ${T_NEEDS} GTest::gtest GTest::gmock GTest::gtest_main)
-  # Tests have local helpers of the same names, so each is compiled alone; and they wait for the
-  # compiler more than for themselves.
-  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+  # Tests wait for the compiler more than for themselves: less is optimised, and a few are compiled
+  # at once, so that after a change to one not all are.
+  if(CMAKE_UNITY_BUILD_BATCH_SIZE GREATER 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 8)
+  endif()
   target_compile_options(${target} PRIVATE ${GROUNDGLASS_WARNINGS} $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${target} PRIVATE
     GROUNDGLASS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "calibrate/slide_frame.h"
+#include "tests/support/draw_between.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,12 +15,12 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kWidth = 360;
-constexpr int kHeight = 270;
+constexpr int kMountWidth = 360;
+constexpr int kMountHeight = 270;
 
 // A scan of a mount as it was made.
 struct Mount {
-  Eigen::Vector2d center_px = {kWidth / 2.0, kHeight / 2.0};
+  Eigen::Vector2d center_px = {kMountWidth / 2.0, kMountHeight / 2.0};
   double width_px = 280;
   double height_px = 187;
   double turn_deg = 0;
@@ -27,10 +28,6 @@ struct Mount {
   double border = 18;    // grey levels
   bool has_dark_part = false;
 };
-
-double Between(std::mt19937_64& random, double least, double most) {
-  return least + (most - least) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 // How far a point lies inside the opening; pixels.
 double Inside(const Mount& mount, const Eigen::Vector2d& point) {
@@ -46,17 +43,17 @@ double Inside(const Mount& mount, const Eigen::Vector2d& point) {
 
 // A picture of clouds, houses and ground in the mount, with blur of a pixel and noise.
 Image8 Scan(const Mount& mount, std::mt19937_64& random) {
-  const double phase = Between(random, 0, 6);
-  Image8 grey(kWidth, kHeight, 1);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  const double phase = DrawBetween(random, 0, 6);
+  Image8 grey(kMountWidth, kMountHeight, 1);
+  for (int y = 0; y < kMountHeight; ++y) {
+    for (int x = 0; x < kMountWidth; ++x) {
       const double share = std::clamp(Inside(mount, {x + 0.5, y + 0.5}) / 1.5 + 0.5, 0.0, 1.0);
       double picture = 140 + 50 * std::sin(x / 31.0 + phase) * std::cos(y / 23.0 - phase);
       const bool is_house = std::fmod(x / 40.0 + phase, 2) > 1.2 && y > 90;
       if (is_house) picture = 75 + 20 * std::sin(y / 3.0);
       // A night sky in a corner, as dark as the mount.
       if (mount.has_dark_part && x + y < 190) picture = mount.border + 5;
-      const double noise = Between(random, -4, 4);
+      const double noise = DrawBetween(random, -4, 4);
       *grey.At(x, y) = static_cast<uint8_t>(
           std::clamp(mount.border + share * (picture - mount.border) + noise, 0.0, 255.0));
     }
@@ -66,12 +63,12 @@ Image8 Scan(const Mount& mount, std::mt19937_64& random) {
 
 Mount DrawMount(std::mt19937_64& random) {
   Mount mount;
-  mount.width_px = Between(random, 240, 300);
-  mount.height_px = mount.width_px / Between(random, 1.45, 1.53);
-  mount.center_px += Eigen::Vector2d(Between(random, -15, 15), Between(random, -15, 15));
-  mount.turn_deg = Between(random, -3, 3);
-  mount.corner_px = Between(random, 0.5, 14);
-  mount.border = Between(random, 4, 30);
+  mount.width_px = DrawBetween(random, 240, 300);
+  mount.height_px = mount.width_px / DrawBetween(random, 1.45, 1.53);
+  mount.center_px += Eigen::Vector2d(DrawBetween(random, -15, 15), DrawBetween(random, -15, 15));
+  mount.turn_deg = DrawBetween(random, -3, 3);
+  mount.corner_px = DrawBetween(random, 0.5, 14);
+  mount.border = DrawBetween(random, 4, 30);
   mount.has_dark_part = random() % 4 == 0;
   return mount;
 }
@@ -112,8 +109,8 @@ TEST(SlideFrame, APictureWithoutABorderHasNone) {
   std::mt19937_64 random(8);
   for (int i = 0; i < 50; ++i) {
     Mount mount = DrawMount(random);
-    mount.width_px = 3 * kWidth;
-    mount.height_px = 3 * kHeight;
+    mount.width_px = 3 * kMountWidth;
+    mount.height_px = 3 * kMountHeight;
     EXPECT_FALSE(FindSlideFrame(Scan(mount, random)).is_found);
   }
 }

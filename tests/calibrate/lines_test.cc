@@ -3,6 +3,7 @@
 #include "calibrate/calibrate_lines.h"
 #include "scene/srgb.h"
 #include "scene/view_tag.h"
+#include "tests/support/draw_between.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -63,25 +64,21 @@ Image8 Photograph(const ViewTag& tag, uint64_t seed) {
   return grey;
 }
 
-double Between(std::mt19937_64& random, double least, double most) {
-  return least + (most - least) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
-
 // From aside of a corner, looking at the house's middle and a little up.
 ViewTag CornerView(std::mt19937_64& random) {
   ViewTag tag;
-  tag.view_angle_deg = Between(random, 40, 70);
+  tag.view_angle_deg = DrawBetween(random, 40, 70);
   const double distance = 24 / std::tan(tag.view_angle_deg / 2 * M_PI / 180);
-  const double bearing = Between(random, 0.5, 1.1);
+  const double bearing = DrawBetween(random, 0.5, 1.1);
   tag.position_in_site = {
       10 + 0.75 * distance * std::sin(bearing), 6 + 0.75 * distance * std::cos(bearing), 1.6};
   tag.position_in_site.y() -= 12;  // `site` counts south: the house lies from 0 to -12
-  tag.lookat_in_site = {10, -6, Between(random, 4, 8)};
+  tag.lookat_in_site = {10, -6, DrawBetween(random, 4, 8)};
   tag.aspect = static_cast<double>(kWidth) / kHeight;
-  tag.roll_deg = Between(random, -3, 3);
-  tag.shift_x = Between(random, -0.01, 0.01);
-  tag.shift_y = Between(random, -0.01, 0.01);
-  tag.k1 = Between(random, -0.1, 0.05);
+  tag.roll_deg = DrawBetween(random, -3, 3);
+  tag.shift_x = DrawBetween(random, -0.01, 0.01);
+  tag.shift_y = DrawBetween(random, -0.01, 0.01);
+  tag.k1 = DrawBetween(random, -0.1, 0.05);
   return tag;
 }
 

@@ -10,7 +10,7 @@ namespace groundglass {
 namespace {
 
 // A square 10 ft wide, 20 ft north of the origin and centred on the axis of MakeCamera.
-PolygonModel MakeWall() {
+PolygonModel UntexturedWall() {
   PolygonModel model;
   model.points_in_world = {{-5, 20, -5}, {5, 20, -5}, {5, 20, 5}, {-5, 20, 5}};
   model.faces = {{{0, 1, 2, 3}, "wall"}};
@@ -29,14 +29,14 @@ TEST(VertexError, OneFootAsideAtTwentyFeetIsATwentiethOfTheFocalLength) {
   const Camera true_camera = MakeCamera();
   Camera found_camera = true_camera;
   found_camera.cam_from_world.translation.x() += 1;
-  const VertexError error = MeasureVertexError(MakeWall(), true_camera, found_camera);
+  const VertexError error = MeasureVertexError(UntexturedWall(), true_camera, found_camera);
   EXPECT_EQ(error.num_points, 4);
   EXPECT_NEAR(error.mean_px, 300.0 / 20, 1e-9);
   EXPECT_NEAR(error.max_px, 300.0 / 20, 1e-9);
 }
 
 TEST(VertexError, PointsOutsideTheTrueFrameDoNotCount) {
-  PolygonModel model = MakeWall();
+  PolygonModel model = UntexturedWall();
   model.points_in_world[0].x() = -25;
   EXPECT_EQ(MeasureVertexError(model, MakeCamera(), MakeCamera()).num_points, 3);
 }
@@ -58,7 +58,7 @@ TEST(CameraErrors, EachNumberOfTheTagComesBack) {
   changed.view_angle_deg += 0.5;
   changed.shift_x = 0.01;
   const CameraErrors errors =
-      MeasureCameraErrors(MakeWall(), true_camera, CameraFromTag(changed, 600, 400));
+      MeasureCameraErrors(UntexturedWall(), true_camera, CameraFromTag(changed, 600, 400));
   EXPECT_NEAR(errors.position, 0.5, 1e-9);
   EXPECT_NEAR(errors.direction_deg, 0, 1e-9);
   EXPECT_NEAR(errors.parameters[0], 0.3, 1e-9);

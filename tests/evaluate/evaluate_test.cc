@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "scene/formats/osu_io.h"
 #include "scene/formats/textured_model_io.h"
+#include "tests/support/brick_scene.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -14,9 +15,6 @@
 
 namespace groundglass {
 namespace {
-
-const std::filesystem::path kBrick =
-    std::filesystem::path(GROUNDGLASS_SOURCE_DIR) / "datasets-synthetic" / "brick";
 
 PolygonModel BrickModel() { return ReadOsu(kBrick / "model.osu").model; }
 

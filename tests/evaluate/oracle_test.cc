@@ -12,6 +12,7 @@
 #include "scene/srgb.h"
 #include "scene/visibility.h"
 #include "tests/invrender/painted_scene.h"
+#include "tests/support/brick_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 
@@ -24,8 +25,6 @@ namespace groundglass {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kBrick = fs::path(GROUNDGLASS_SOURCE_DIR) / "datasets-synthetic/brick";
 
 // A wall from (0, 0) to (24, 12) and a post before its middle.
 struct PostedWall {

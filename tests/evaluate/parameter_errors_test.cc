@@ -59,7 +59,8 @@ TEST(ParameterErrors, WhatWasHeldClaimsNothing) {
 }
 
 TEST(ParameterErrors, NoPhotographsNoTable) {
-  EXPECT_EQ(FormatParameterTable(SummariseParameters({}), "ft"), "");
+  const std::vector<PhotographParameters> none;
+  EXPECT_EQ(FormatParameterTable(SummariseParameters(none), "ft"), "");
 }
 
 }  // namespace

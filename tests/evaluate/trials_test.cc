@@ -3,6 +3,7 @@
 #include "evaluate/trials.h"
 
 #include "scene/error.h"
+#include "tests/support/brick_scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +11,7 @@
 namespace groundglass {
 namespace {
 
-const std::filesystem::path kBrick =
-    std::filesystem::path(GROUNDGLASS_SOURCE_DIR) / "datasets-synthetic" / "brick";
-
-Trial MakeTrial(double start_px, double end_px, Verdict verdict) {
+Trial TrialOf(double start_px, double end_px, Verdict verdict) {
   Trial trial;
   trial.start_at_640_px = start_px;
   trial.end_at_640_px = end_px;
@@ -23,10 +21,10 @@ Trial MakeTrial(double start_px, double end_px, Verdict verdict) {
 }
 
 TEST(SummariseTrials, CountsByStartingErrorAndAllTogether) {
-  const std::vector<TrialBin> bins = SummariseTrials({MakeTrial(3, 0.2, Verdict::kAccepted),
-                                                      MakeTrial(15, 0.4, Verdict::kAccepted),
-                                                      MakeTrial(16, 2.0, Verdict::kReview),
-                                                      MakeTrial(17, 9.0, Verdict::kAccepted)});
+  const std::vector<TrialBin> bins = SummariseTrials({TrialOf(3, 0.2, Verdict::kAccepted),
+                                                      TrialOf(15, 0.4, Verdict::kAccepted),
+                                                      TrialOf(16, 2.0, Verdict::kReview),
+                                                      TrialOf(17, 9.0, Verdict::kAccepted)});
   ASSERT_EQ(bins.size(), 3u);  // below 5, 10 to 20, all
   EXPECT_EQ(bins[1].low_px, 10);
   EXPECT_EQ(bins[1].count, 3);
@@ -40,10 +38,10 @@ TEST(SummariseTrials, CountsByStartingErrorAndAllTogether) {
 
 // Blunders are counted apart from what the notebooks' sigmas say.
 TEST(SummariseTrials, BlundersAreCountedApart) {
-  std::vector<Trial> trials = {MakeTrial(3, 0.2, Verdict::kAccepted),
-                               MakeTrial(300, 40, Verdict::kAccepted),
-                               MakeTrial(200, 0.5, Verdict::kAccepted),
-                               MakeTrial(250, 250, Verdict::kRejected)};
+  std::vector<Trial> trials = {TrialOf(3, 0.2, Verdict::kAccepted),
+                               TrialOf(300, 40, Verdict::kAccepted),
+                               TrialOf(200, 0.5, Verdict::kAccepted),
+                               TrialOf(250, 250, Verdict::kRejected)};
   trials[1].blunder = Blunder::kWrongPhotograph;
   trials[2].blunder = trials[3].blunder = Blunder::kWrongSign;
   EXPECT_EQ(SummariseTrials(trials).back().count, 1);

@@ -17,8 +17,6 @@
 namespace groundglass {
 namespace {
 
-const Paint kWaves = [](int, const Eigen::Vector3d& point) { return Waves(point); };
-
 // The photographs as they are: for tests of geometry.
 BakeOptions Plain() {
   BakeOptions options;

@@ -26,7 +26,6 @@ using testing::HasSubstr;
 
 const std::filesystem::path kModels =
     std::filesystem::path(GROUNDGLASS_SOURCE_DIR) / "tests/data/models";
-const Paint kWaves = [](int, const Eigen::Vector3d& point) { return Waves(point); };
 
 TEST(OutsideModels, ThePaneIsSeenThroughTheWindowAndTheWallHasAHole) {
   const TemporaryFolder folder;

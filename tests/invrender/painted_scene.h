@@ -22,6 +22,8 @@ using Paint = std::function<Eigen::Array3f(int face, const Eigen::Vector3d& poin
 // A smooth pattern, different in each channel, a few feet from crest to crest, so that a shift of
 // a small part of a texel shows.
 Eigen::Array3f Waves(const Eigen::Vector3d& point_in_world);
+// The same on every face.
+inline const Paint kWaves = [](int, const Eigen::Vector3d& point) { return Waves(point); };
 
 // Adds a face with these corners (counterclockwise seen from its front); returns its number.
 int AddFace(PolygonModel& model, const std::vector<Eigen::Vector3d>& corners);

@@ -14,6 +14,12 @@ namespace groundglass {
 // registration could fall for.
 PolygonModel MakeHouse();
 
+// Pixels of its photographs; the small ones are for what does not look at them closely.
+inline constexpr int kPhotoWidth = 600;
+inline constexpr int kPhotoHeight = 400;
+inline constexpr int kSmallWidth = 300;
+inline constexpr int kSmallHeight = 200;
+
 // A photograph of the model, drawn by casting rays: each face in a grey of its own on a light sky,
 // averaged over 3 x 3 rays a pixel, with normal noise of this many grey levels.
 Image8 PhotographModel(const PolygonModel& model,

@@ -13,9 +13,6 @@
 namespace groundglass {
 namespace {
 
-constexpr int kWidth = 600;
-constexpr int kHeight = 400;
-
 ViewTag TagAt(const Eigen::Vector3d& position_in_site, const Eigen::Vector3d& lookat_in_site) {
   ViewTag tag;
   tag.position_in_site = position_in_site;
@@ -26,13 +23,13 @@ ViewTag TagAt(const Eigen::Vector3d& position_in_site, const Eigen::Vector3d& lo
 }
 
 // Three cameras on the house's south side, in feet, and what a tape made of them.
-std::vector<ViewTag> TrueTags() {
+std::vector<ViewTag> ThreeTrueTags() {
   return {TagAt({-20, 55, 6}, {18, -6, 9}),
           TagAt({8, 62, 5}, {20, -8, 9}),
           TagAt({66, 45, 6}, {24, -6, 9})};
 }
-std::vector<ViewTag> MeasuredTags() {
-  std::vector<ViewTag> tags = TrueTags();
+std::vector<ViewTag> ThreeMeasuredTags() {
+  std::vector<ViewTag> tags = ThreeTrueTags();
   const Eigen::Vector3d errors[] = {{0.3, -0.2, 0.1}, {-0.25, 0.3, -0.1}, {0.2, 0.25, 0.05}};
   for (size_t i = 0; i < tags.size(); ++i) {
     tags[i].position_in_site += errors[i];
@@ -44,9 +41,9 @@ std::vector<ViewTag> MeasuredTags() {
 const std::vector<Image8>& Photographs() {
   static const std::vector<Image8> photographs = [] {
     std::vector<Image8> drawn;
-    for (const ViewTag& tag : TrueTags()) {
-      drawn.push_back(
-          PhotographModel(MakeHouse(), CameraFromTag(tag, kWidth, kHeight), 2, drawn.size() + 1));
+    for (const ViewTag& tag : ThreeTrueTags()) {
+      drawn.push_back(PhotographModel(
+          MakeHouse(), CameraFromTag(tag, kPhotoWidth, kPhotoHeight), 2, drawn.size() + 1));
     }
     return drawn;
   }();
@@ -70,7 +67,7 @@ std::vector<PhotographAlignment> AlignScaled(double scale,
   const EdgeModel edge_model(model);
   std::vector<PhotographAlignment> alignments;
   for (size_t i = 0; i < Photographs().size(); ++i) {
-    ViewTag tag = MeasuredTags()[i];
+    ViewTag tag = ThreeMeasuredTags()[i];
     tag.position_in_site *= scale;
     tag.lookat_in_site *= scale;
     alignments.push_back(
@@ -96,8 +93,8 @@ double ErrorPx(const PhotographAlignment& alignment, size_t photograph, double s
   found.position_in_site /= scale;
   found.lookat_in_site /= scale;
   return VertexErrorPx(MakeHouse(),
-                       CameraFromTag(TrueTags()[photograph], kWidth, kHeight),
-                       CameraFromTag(found, kWidth, kHeight));
+                       CameraFromTag(ThreeTrueTags()[photograph], kPhotoWidth, kPhotoHeight),
+                       CameraFromTag(found, kPhotoWidth, kPhotoHeight));
 }
 
 TEST(ModelTolerance, AMaquetteIsRegisteredLikeItsBuilding) {
@@ -157,7 +154,7 @@ TEST(ModelTolerance, ALargerSigmaMakesEveryCameraLessCertain) {
 TEST(ModelTolerance, ALooseModelMayLieOffAsAWholeEdgeAndStillScores) {
   // One upright edge of 80 px, seen 6 px beside where the camera has it.
   const ParameterProjection projection(
-      ParametersFromTag(TagAt({0, 100, 0}, {0, 0, 0})), {}, kWidth, kHeight);
+      ParametersFromTag(TagAt({0, 100, 0}, {0, 0, 0})), {}, kPhotoWidth, kPhotoHeight);
   std::vector<ScoreSample> samples;
   for (int i = 0; i < 20; ++i) {
     ScoreSample sample;

@@ -11,9 +11,6 @@
 namespace groundglass {
 namespace {
 
-constexpr int kWidth = 600;
-constexpr int kHeight = 400;
-
 // Where a photographer stood: the south-east, the north-west, and close to the lean-to.
 ViewTag TrueTag(int spot) {
   ViewTag tag;
@@ -64,7 +61,7 @@ TEST(RegisterPhotograph, RecoversTheCameraAndTheSlideFromTapeErrors) {
   for (int spot = 0; spot < 3; ++spot) {
     for (uint64_t seed = 1; seed <= 3; ++seed) {
       const Errors errors = DrawErrors(spot, 100 * spot + seed);
-      const Camera truth = CameraFromTag(errors.truth, kWidth, kHeight);
+      const Camera truth = CameraFromTag(errors.truth, kPhotoWidth, kPhotoHeight);
       const Image8 photograph = PhotographModel(model, truth, 2, seed);
       const Registration registration = Register(model, photograph, errors.measured);
       EXPECT_EQ(registration.verdict, Verdict::kAccepted) << spot << " " << seed;
@@ -87,7 +84,7 @@ TEST(RegisterPhotograph, ASearchThatItsPriorBendsBeginsAnew) {
   errors.measured.sigmas.position = 15;
   errors.measured.sigmas.height = 5;
   errors.measured.sigmas.lookat = 8;
-  const Camera truth = CameraFromTag(errors.truth, kWidth, kHeight);
+  const Camera truth = CameraFromTag(errors.truth, kPhotoWidth, kPhotoHeight);
   const Image8 photograph = PhotographModel(model, truth, 2, 3);
   const auto error_px = [&](const RegisterOptions& options) {
     const Registration found = RegisterPhotograph(
@@ -109,7 +106,7 @@ TEST(RegisterPhotograph, TheTruthLiesInsideTheClaimedEllipsoid) {
   constexpr int kTrials = 8;
   for (int trial = 0; trial < kTrials; ++trial) {
     const Errors errors = DrawErrors(trial % 3, 500 + trial);
-    const Camera truth = CameraFromTag(errors.truth, kWidth, kHeight);
+    const Camera truth = CameraFromTag(errors.truth, kPhotoWidth, kPhotoHeight);
     const Registration registration =
         Register(model, PhotographModel(model, truth, 2, trial), errors.measured);
     CameraParameters difference =
@@ -129,7 +126,7 @@ TEST(RegisterPhotograph, ASlideOutOfRegisterIsFoundWhenTheCameraIsKnown) {
   truth_tag.roll_deg = -1.2;
   truth_tag.shift_x = 0.021;
   truth_tag.shift_y = -0.017;
-  const Camera truth = CameraFromTag(truth_tag, kWidth, kHeight);
+  const Camera truth = CameraFromTag(truth_tag, kPhotoWidth, kPhotoHeight);
   RegisterOptions options;
   options.prior.lock = {"x", "y", "z", "yaw", "pitch", "v", "a", "k1"};
   const Registration registration =
@@ -146,7 +143,7 @@ TEST(RegisterPhotograph, ASlideOutOfRegisterIsFoundWhenTheCameraIsKnown) {
 TEST(RegisterPhotograph, AWrongPhotographIsNotAccepted) {
   const PolygonModel model = MakeHouse();
   for (const auto& [tagged, shown] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
-    const Camera other = CameraFromTag(TrueTag(shown), kWidth, kHeight);
+    const Camera other = CameraFromTag(TrueTag(shown), kPhotoWidth, kPhotoHeight);
     const Registration registration =
         Register(model, PhotographModel(model, other, 2, 1), TrueTag(tagged));
     EXPECT_NE(registration.verdict, Verdict::kAccepted);
@@ -156,7 +153,8 @@ TEST(RegisterPhotograph, AWrongPhotographIsNotAccepted) {
 
 TEST(RegisterPhotograph, ARejectedPhotographKeepsItsMeasuredTag) {
   const PolygonModel model = MakeHouse();
-  const Registration registration = Register(model, Image8(kWidth, kHeight, 1, 128), TrueTag(0));
+  const Registration registration =
+      Register(model, Image8(kPhotoWidth, kPhotoHeight, 1, 128), TrueTag(0));
   EXPECT_EQ(registration.verdict, Verdict::kRejected);
   EXPECT_EQ(registration.corrected, registration.measured);
   EXPECT_FALSE(registration.reasons.empty());
@@ -166,7 +164,8 @@ TEST(RegisterPhotograph, ATagThatLooksAwaySaysSo) {
   const PolygonModel model = MakeHouse();
   ViewTag away = TrueTag(0);
   away.lookat_in_site = 2 * away.position_in_site - away.lookat_in_site;
-  const Registration registration = Register(model, Image8(kWidth, kHeight, 1, 128), away);
+  const Registration registration =
+      Register(model, Image8(kPhotoWidth, kPhotoHeight, 1, 128), away);
   EXPECT_EQ(registration.verdict, Verdict::kRejected);
   ASSERT_EQ(registration.reasons.size(), 1u);
   EXPECT_EQ(registration.reasons[0], "the measured tag sees almost nothing of the model");
@@ -175,9 +174,9 @@ TEST(RegisterPhotograph, ATagThatLooksAwaySaysSo) {
 TEST(RegisterPhotograph, AReducedPhotographGivesTheSameCamera) {
   const PolygonModel model = MakeHouse();
   const Errors errors = DrawErrors(0, 42);
-  const Camera truth = CameraFromTag(errors.truth, kWidth, kHeight);
+  const Camera truth = CameraFromTag(errors.truth, kPhotoWidth, kPhotoHeight);
   RegisterOptions options;
-  options.max_width_px = kWidth / 2;
+  options.max_width_px = kPhotoWidth / 2;
   const Registration registration =
       RegisterPhotograph({"large", PhotographModel(model, truth, 2, 1), {}, errors.measured, {}},
                          EdgeModel(model),
@@ -189,7 +188,7 @@ TEST(RegisterPhotograph, AReducedPhotographGivesTheSameCamera) {
 TEST(RegisterPhotograph, FiguresAreWhatTheyAreCalled) {
   const PolygonModel model = MakeHouse();
   const Errors errors = DrawErrors(0, 42);
-  const Camera truth = CameraFromTag(errors.truth, kWidth, kHeight);
+  const Camera truth = CameraFromTag(errors.truth, kPhotoWidth, kPhotoHeight);
   const auto figures_of = [&](double noise_levels) {
     return Register(model, PhotographModel(model, truth, noise_levels, 1), errors.measured);
   };
@@ -200,7 +199,7 @@ TEST(RegisterPhotograph, FiguresAreWhatTheyAreCalled) {
   EXPECT_GT(*noisy.rms_px, *clean.rms_px);
   EXPECT_GT(*noisy.robust_sigma_px, 1.2 * *clean.robust_sigma_px);
   // A photograph without edges has neither.
-  const Registration blank = Register(model, Image8(kWidth, kHeight, 1, 128), TrueTag(0));
+  const Registration blank = Register(model, Image8(kPhotoWidth, kPhotoHeight, 1, 128), TrueTag(0));
   EXPECT_FALSE(blank.rms_px.has_value());
   EXPECT_FALSE(blank.robust_sigma_px.has_value());
 }

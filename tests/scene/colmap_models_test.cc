@@ -5,6 +5,7 @@
 #include "scene/formats/osu_io.h"
 #include "scene/formats/pose_check.h"
 #include "scene/formats/view_io.h"
+#include "tests/support/brick_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 
@@ -20,7 +21,6 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::string kBrick = std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick";
 // What other programs wrote.
 const std::string kOutside = std::string(GROUNDGLASS_SOURCE_DIR) + "/tests/data/colmap/";
 // The brick scene's true cameras, through COLMAP's model_converter.
@@ -115,7 +115,7 @@ std::vector<Camera> PosesOf(const std::vector<NamedCamera>& named) {
 }
 
 TEST(ColmapPoses, TheWrongWayRoundIsTold) {
-  const PolygonModel model = ReadOsu(kBrick + "/model.osu").model;
+  const PolygonModel model = ReadOsu(kBrick / "model.osu").model;
   const PoseCheck check = CheckPoses(model, PosesOf(ReadColmapModel(kOutside + "camera_to_world")));
   EXPECT_EQ(check.num_seeing, 0);
   EXPECT_THAT(check.fault,
@@ -125,8 +125,8 @@ TEST(ColmapPoses, TheWrongWayRoundIsTold) {
 }
 
 TEST(ColmapPoses, OtherHabitsAreToldApart) {
-  const PolygonModel model = ReadOsu(kBrick + "/model.osu").model;
-  const std::vector<Camera> truth = PosesOf(ReadColmapModel(kBrick + "/truth/cameras"));
+  const PolygonModel model = ReadOsu(kBrick / "model.osu").model;
+  const std::vector<Camera> truth = PosesOf(ReadColmapModel(kBrick / "truth/cameras"));
   const auto fault = [&](auto spoil) {
     std::vector<Camera> cameras = truth;
     for (Camera& camera : cameras) spoil(camera.cam_from_world);
@@ -155,7 +155,7 @@ TEST(ColmapPoses, OtherHabitsAreToldApart) {
 }
 
 TEST(ColmapBinary, IsReadAsTheTextIs) {
-  const std::vector<NamedCamera> text = ReadColmapModel(kBrick + "/truth/cameras");
+  const std::vector<NamedCamera> text = ReadColmapModel(kBrick / "truth/cameras");
   const std::vector<NamedCamera> binary = ReadColmapModel(kBinary);
   ASSERT_EQ(binary.size(), text.size());
   for (const NamedCamera& a : binary) {

@@ -24,7 +24,7 @@ int AddPoint(double x, double y, PolygonModel& model) {
   return static_cast<int>(model.points_in_world.size()) - 1;
 }
 
-std::vector<int> AddRectangle(double x0, double y0, double x1, double y1, PolygonModel& model) {
+std::vector<int> AddRectangleFace(double x0, double y0, double x1, double y1, PolygonModel& model) {
   return {AddPoint(x0, y0, model),
           AddPoint(x1, y0, model),
           AddPoint(x1, y1, model),
@@ -53,14 +53,14 @@ double TriangleArea(const PolygonModel& model, int face) {
 // programs write it: bridges run through windows and along one another.
 PolygonModel WallWithWindows(int columns, int rows, bool is_turned, bool has_own_points) {
   PolygonModel model;
-  const std::vector<int> wall = AddRectangle(0, 0, 4.0 * columns, 4.0 * rows, model);
+  const std::vector<int> wall = AddRectangleFace(0, 0, 4.0 * columns, 4.0 * rows, model);
   Face face;
   face.points = wall;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const double x = 4.0 * column + 1;
       const double y = 4.0 * row + 1;
-      const std::vector<int> window = AddRectangle(x, y, x + 2, y + 1.5, model);
+      const std::vector<int> window = AddRectangleFace(x, y, x + 2, y + 1.5, model);
       // Back to the first corner, over, and around clockwise.
       const auto again = [&](int point) {
         if (!has_own_points) return point;
@@ -100,7 +100,7 @@ TEST(MendFaces, ManyWindowsOnCarelessBridgesLeaveTheRightArea) {
 TEST(MendFaces, AHoleThatTouchesTheOutlineIsOpen) {
   // The window's lower left corner is the wall's, and a second one stands on its lower side.
   PolygonModel model;
-  const std::vector<int> wall = AddRectangle(0, 0, 10, 5, model);
+  const std::vector<int> wall = AddRectangleFace(0, 0, 10, 5, model);
   const int b = AddPoint(1, 3, model);
   const int c = AddPoint(3, 1, model);
   const int d = AddPoint(6, 0, model);
@@ -116,7 +116,7 @@ TEST(MendFaces, AHoleThatTouchesTheOutlineIsOpen) {
 TEST(MendFaces, AHoleThatTouchesTheOutlineAndRunsTheSameWayIsTurned) {
   for (int turned = 1; turned < 4; ++turned) {
     PolygonModel model;
-    const std::vector<int> wall = AddRectangle(0, 0, 10, 5, model);
+    const std::vector<int> wall = AddRectangleFace(0, 0, 10, 5, model);
     std::vector<int> corner_hole = {AddPoint(1, 3, model), AddPoint(3, 1, model)};
     const int d = AddPoint(6, 0, model);
     std::vector<int> side_hole = {AddPoint(6, 2, model), AddPoint(7, 2, model)};
@@ -177,7 +177,7 @@ TEST(MendFaces, RandomFramesAreCutIntoTrianglesOfTheirArea) {
 
 TEST(MendFaces, DropsCornersWithTheirTexels) {
   PolygonModel model;
-  const std::vector<int> wall = AddRectangle(0, 0, 4, 3, model);
+  const std::vector<int> wall = AddRectangleFace(0, 0, 4, 3, model);
   model.faces.push_back({{wall[0], wall[1], wall[1], wall[2], wall[3], wall[0]}, "wall"});
   std::vector<FaceTexture> textures(1);
   textures[0] = {0, {{0, 0}, {4, 0}, {4, 0}, {4, 3}, {0, 3}, {0, 0}}};
@@ -195,9 +195,9 @@ TEST(MendFaces, DropsCornersWithTheirTexels) {
 
 TEST(MendFaces, FacesBackToBackAreDoublesAndTheFirstOnesFrontCounts) {
   PolygonModel model;
-  const std::vector<int> wall = AddRectangle(0, 0, 4, 3, model);
-  const std::vector<int> same = AddRectangle(0, 0, 4, 3, model);
-  const std::vector<int> other = AddRectangle(0, 0, 4, 2.999, model);
+  const std::vector<int> wall = AddRectangleFace(0, 0, 4, 3, model);
+  const std::vector<int> same = AddRectangleFace(0, 0, 4, 3, model);
+  const std::vector<int> other = AddRectangleFace(0, 0, 4, 2.999, model);
   model.faces.push_back({wall, ""});
   model.faces.push_back({{same[2], same[1], same[0], same[3]}, ""});
   model.faces.push_back({other, ""});
@@ -212,7 +212,7 @@ TEST(MendFaces, FacesBackToBackAreDoublesAndTheFirstOnesFrontCounts) {
 TEST(MendFaces, WhatCoversItselfIsAFault) {
   // Around twice, a figure of eight, and an outline that is only a bridge.
   PolygonModel model;
-  const std::vector<int> wall = AddRectangle(0, 0, 4, 3, model);
+  const std::vector<int> wall = AddRectangleFace(0, 0, 4, 3, model);
   model.faces.push_back(
       {{wall[0], wall[1], wall[2], wall[3], wall[0], wall[1], wall[2], wall[3]}, ""});
   model.faces.push_back({{wall[0], wall[2], wall[1], wall[3]}, ""});

@@ -10,6 +10,7 @@
 #include "scene/formats/textured_model_io.h"
 #include "scene/formats/view_io.h"
 #include "scene/visibility.h"
+#include "tests/support/brick_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 
@@ -26,7 +27,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 const fs::path kModels = fs::path(GROUNDGLASS_SOURCE_DIR) / "tests/data/models";
-const fs::path kBrick = fs::path(GROUNDGLASS_SOURCE_DIR) / "datasets-synthetic/brick/model.osu";
 
 TEST(OutsideModels, NorthingsInDoublesKeepTheirLastDigit) {
   const ModelReading reading = ReadModel(kModels / "utm_doubles.ply");
@@ -43,7 +43,7 @@ TEST(OutsideModels, NorthingsInDoublesKeepTheirLastDigit) {
 
 TEST(OutsideModels, RepeatedAndClosingCornersAreDroppedWithOneNote) {
   const ModelReading reading = ReadModel(kModels / "repeated_corners.obj");
-  const PolygonModel brick = ReadModel(kBrick).model;
+  const PolygonModel brick = ReadModel(kBrick / "model.osu").model;
   ASSERT_EQ(reading.model.faces.size(), 70u);
   for (int face = 0; face < 70; ++face) {
     EXPECT_EQ(FaceNumber(reading.model, face), face + 1);
@@ -144,7 +144,7 @@ TEST(OutsideModels, QuantisedPositionsAreRead) {
   EXPECT_EQ(reading.model.points_in_world.size(), 108u);
   EXPECT_EQ(reading.model.faces.size(), 132u);
   // The brick hall in metres, to half a step of 14.9352 m / 32767.
-  const PolygonModel brick = ReadModel(kBrick).model;
+  const PolygonModel brick = ReadModel(kBrick / "model.osu").model;
   const Box box = ComputeBounds(reading.model);
   const Box expected = ComputeBounds(brick);
   EXPECT_LT((box.max - 0.3048 * expected.max).norm(), 0.001);

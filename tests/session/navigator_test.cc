@@ -11,8 +11,8 @@
 namespace groundglass {
 namespace {
 
-constexpr int kWidth = 600;
-constexpr int kHeight = 400;
+constexpr int kWindowWidth = 600;
+constexpr int kWindowHeight = 400;
 
 Eye EyeSouthOfHouse() {
   Eye eye;
@@ -21,7 +21,7 @@ Eye EyeSouthOfHouse() {
 }
 
 Eigen::Vector2d ImageOf(const Eye& eye, const Eigen::Vector3d& point_in_world) {
-  return *Project(eye.InFrame(kWidth, kHeight), point_in_world);
+  return *Project(eye.InFrame(kWindowWidth, kWindowHeight), point_in_world);
 }
 
 TEST(Navigator, OrbitKeepsThePointWhereItIsInThePicture) {
@@ -36,7 +36,7 @@ TEST(Navigator, PanLeavesWhatIsAtTheDepthUnderTheHand) {
   const Eye eye = EyeSouthOfHouse();
   const Eigen::Vector3d grabbed(22, 0, 9);
   const double depth = 50;  // along the view axis, which looks north
-  const Eye moved = Pan(eye, depth, 30, -12, kWidth);
+  const Eye moved = Pan(eye, depth, 30, -12, kWindowWidth);
   EXPECT_LT((ImageOf(moved, grabbed) - ImageOf(eye, grabbed) - Eigen::Vector2d(30, -12)).norm(),
             1e-6);
 }
@@ -88,14 +88,14 @@ TEST(Navigator, StairsAreClimbedAndTablesAreNot) {
 
 TEST(Navigator, TheFirstViewHoldsTheWholeModel) {
   const PolygonModel house = MakeHouse();
-  const Camera camera = FirstEye(house, 1.5).InFrame(kWidth, kHeight);
+  const Camera camera = FirstEye(house, 1.5).InFrame(kWindowWidth, kWindowHeight);
   for (const Eigen::Vector3d& point : house.points_in_world) {
     EXPECT_TRUE(IsInsideFrame(camera, *Project(camera, point)));
   }
 }
 
 TEST(Navigator, AnEyeIsTheCameraItCameFromButForRoll) {
-  const Camera camera = EyeSouthOfHouse().InFrame(kWidth, kHeight);
+  const Camera camera = EyeSouthOfHouse().InFrame(kWindowWidth, kWindowHeight);
   const Eye eye = EyeOf(camera);
   EXPECT_LT((eye.position_in_world - EyeSouthOfHouse().position_in_world).norm(), 1e-9);
   EXPECT_NEAR(eye.yaw_deg, 90, 1e-9);
@@ -108,7 +108,7 @@ TEST(Navigator, AnEyeIsTheCameraItCameFromButForRoll) {
 TEST(Picking, CornersThatAreSeenAreFoundAndHiddenOnesAreNot) {
   const PolygonModel house = MakeHouse();
   const Visibility visibility(house);
-  const Camera camera = EyeSouthOfHouse().InFrame(kWidth, kHeight);
+  const Camera camera = EyeSouthOfHouse().InFrame(kWindowWidth, kWindowHeight);
   const auto corners = FindVisibleCorners(house, visibility, camera);
   const Eigen::Vector3d eave(0, 0, 16);
   const auto picked = PickCorner(corners, *Project(camera, eave) + Eigen::Vector2d(3, -2), 12);
@@ -126,7 +126,7 @@ TEST(Picking, CornersThatAreSeenAreFoundAndHiddenOnesAreNot) {
 TEST(Picking, TheNearestEdgeIsPickedAnywhereAlongIt) {
   const PolygonModel house = MakeHouse();
   const Visibility visibility(house);
-  const Camera camera = EyeSouthOfHouse().InFrame(kWidth, kHeight);
+  const Camera camera = EyeSouthOfHouse().InFrame(kWindowWidth, kWindowHeight);
   const auto edges = FindModelEdges(house);
   const auto spans = FindVisibleSpans(house, edges, visibility, camera, 0);
   const Eigen::Vector2d on_corner_edge = *Project(camera, {0, 0, 7});

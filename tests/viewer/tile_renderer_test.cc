@@ -21,10 +21,10 @@ Tile WallTile(float x0, float x1, float z0, float z1, float y = 0) {
 }
 
 // One pixel a unit, 64 x 32 of them.
-Camera FrontalCamera() { return MakeCamera({32, -100, 16}, {32, 0, 16}, 64, 32, 100); }
+Camera CameraBeforeTiles() { return MakeCamera({32, -100, 16}, {32, 0, 16}, 64, 32, 100); }
 
 TEST(TileRenderer, InterpolatesCodesBetweenCorners) {
-  TileRenderer renderer(FrontalCamera(), 1);
+  TileRenderer renderer(CameraBeforeTiles(), 1);
   const Tile tile = WallTile(8, 40, 8, 24);
   renderer.Draw({&tile, 1});
   const Image8 picture = renderer.Picture();
@@ -42,7 +42,7 @@ TEST(TileRenderer, NearestWinsWhateverTheOrder) {
   for (TileCorner& corner : near.corners) corner.r = corner.g = corner.b = 0.2f;
   const Tile far = WallTile(0, 64, 0, 32);
   for (const bool near_first : {true, false}) {
-    TileRenderer renderer(FrontalCamera(), 2);
+    TileRenderer renderer(CameraBeforeTiles(), 2);
     renderer.Draw({near_first ? &near : &far, 1});
     renderer.Draw({near_first ? &far : &near, 1});
     const Image8 picture = renderer.Picture();

@@ -15,7 +15,7 @@
 namespace groundglass {
 namespace {
 
-const Paint kWaves = [](int, const Eigen::Vector3d& point) {
+const Paint kHalfWaves = [](int, const Eigen::Vector3d& point) {
   return Eigen::Array3f(0.5f * Waves(point));
 };
 
@@ -48,7 +48,7 @@ TEST(MatchColour, ExposureAndWhiteBalanceAreEvenedOutAlongAChainOfPhotographs) {
     photographs.push_back(PhotographPainted(
         model,
         camera,
-        kWaves,
+        kHalfWaves,
         folder.path(),
         "s" + std::to_string(i + 1),
         [&](const Eigen::Array3f& radiance, int, int) { return radiance * gains[i]; }));
@@ -82,7 +82,7 @@ TEST(MatchColour, VignettingIsFoundFromOverlaps) {
     photographs.push_back(PhotographPainted(
         model,
         camera,
-        kWaves,
+        kHalfWaves,
         folder.path(),
         "s" + std::to_string(i + 1),
         [&](const Eigen::Array3f& radiance, int x, int y) {
@@ -123,7 +123,7 @@ TEST(RejectOccluders, WhatOnePhotographOfThreeShowsIsNotTexture) {
     photographs.push_back(
         PhotographPainted(model,
                           camera,
-                          kWaves,
+                          kHalfWaves,
                           folder.path(),
                           "s" + std::to_string(i + 1),
                           [&](const Eigen::Array3f& radiance, int x, int) {
@@ -154,7 +154,7 @@ TEST(RejectOccluders, WithTwoPhotographsTheWallsOwnColoursDecide) {
     photographs.push_back(
         PhotographPainted(model,
                           camera,
-                          kWaves,
+                          kHalfWaves,
                           folder.path(),
                           "s" + std::to_string(i + 1),
                           [&](const Eigen::Array3f& radiance, int x, int y) {

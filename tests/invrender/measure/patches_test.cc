@@ -89,8 +89,8 @@ Paint BlurredBy(double variance_px2) {
   };
 }
 
-std::vector<Patch> LookAt(const PolygonModel& model,
-                          const std::vector<BakePhotograph>& photographs) {
+std::vector<Patch> LookAtFaces(const PolygonModel& model,
+                               const std::vector<BakePhotograph>& photographs) {
   const Visibility visibility(model);
   std::vector<Chart> charts = MakeCharts(model);
   const std::vector<int> chart_of_face = ChartOfFace(charts, model.faces.size());
@@ -221,7 +221,7 @@ TEST_F(Grainy4, MeasuresTheGrainOfEachPhotograph) {
                                              "s" + std::to_string(i + 1),
                                              Grainy(sigmas[i], i + 1)));
   }
-  const Grain grain = MeasureGrain(LookAt(model_, photographs_), 1, 4, GrainOptions());
+  const Grain grain = MeasureGrain(LookAtFaces(model_, photographs_), 1, 4, GrainOptions());
   EXPECT_GT(grain.certainty[0], 0.9);
   for (int i = 0; i < 4; ++i) {
     // White noise keeps 0.794 of its variance in the finest band; looking up between pixels takes
@@ -256,7 +256,7 @@ class Blurred : public testing::Test {
 
 TEST_F(Blurred, IsMeasuredByComparison) {
   const std::vector<Sharpness> sharpness =
-      MeasureSharpness(LookAt(model_, photographs_), 4, SharpnessOptions());
+      MeasureSharpness(LookAtFaces(model_, photographs_), 4, SharpnessOptions());
   for (const int sharp : {0, 1, 3}) {
     EXPECT_EQ(sharpness[sharp].factor, 1);
     // 2.4 in truth. The heat equation holds for small differences, and falls short of large ones.

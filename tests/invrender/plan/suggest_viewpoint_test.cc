@@ -7,7 +7,7 @@
 namespace groundglass {
 namespace {
 
-void AddFace(PolygonModel& model, const std::vector<Eigen::Vector3d>& corners) {
+void AddPlainFace(PolygonModel& model, const std::vector<Eigen::Vector3d>& corners) {
   Face face;
   for (const Eigen::Vector3d& corner : corners) {
     face.points.push_back(static_cast<int>(model.points_in_world.size()));
@@ -19,17 +19,17 @@ void AddFace(PolygonModel& model, const std::vector<Eigen::Vector3d>& corners) {
 // A wall of 40 x 20 ft that looks north, its foot on the ground.
 PolygonModel Wall() {
   PolygonModel model;
-  AddFace(model, {{20, 0, 0}, {-20, 0, 0}, {-20, 0, 20}, {20, 0, 20}});
+  AddPlainFace(model, {{20, 0, 0}, {-20, 0, 0}, {-20, 0, 20}, {20, 0, 20}});
   return model;
 }
 
 // The same with a closed shed against it, 60 ft deep: most of the wall is indoors.
 PolygonModel WallBehindAShed() {
   PolygonModel model = Wall();
-  AddFace(model, {{18, 60, 0}, {-18, 60, 0}, {-18, 60, 15}, {18, 60, 15}});
-  AddFace(model, {{18, 0, 0}, {18, 60, 0}, {18, 60, 15}, {18, 0, 15}});
-  AddFace(model, {{-18, 60, 0}, {-18, 0, 0}, {-18, 0, 15}, {-18, 60, 15}});
-  AddFace(model, {{18, 0, 15}, {18, 60, 15}, {-18, 60, 15}, {-18, 0, 15}});
+  AddPlainFace(model, {{18, 60, 0}, {-18, 60, 0}, {-18, 60, 15}, {18, 60, 15}});
+  AddPlainFace(model, {{18, 0, 0}, {18, 60, 0}, {18, 60, 15}, {18, 0, 15}});
+  AddPlainFace(model, {{-18, 60, 0}, {-18, 0, 0}, {-18, 0, 15}, {-18, 60, 15}});
+  AddPlainFace(model, {{18, 0, 15}, {18, 60, 15}, {-18, 60, 15}, {-18, 0, 15}});
   return model;
 }
 

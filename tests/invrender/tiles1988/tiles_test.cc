@@ -20,8 +20,6 @@
 namespace groundglass {
 namespace {
 
-const Paint kWaves = [](int, const Eigen::Vector3d& point) { return Waves(point); };
-
 std::vector<Tile> TilesOf(const PolygonModel& model,
                           const BakePhotograph& photograph,
                           const std::vector<int>& faces,

@@ -22,10 +22,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kWidth = 600;
-constexpr int kHeight = 400;
-
-ViewTag TrueTag() {
+ViewTag SlidTag() {
   ViewTag tag;
   tag.position_in_site = {62, 48, 5};
   tag.lookat_in_site = {20, -4, 11};
@@ -38,7 +35,7 @@ ViewTag TrueTag() {
 
 // Written down from memory: feet off, and said to be so.
 ViewTag RememberedTag() {
-  ViewTag tag = TrueTag();
+  ViewTag tag = SlidTag();
   tag.roll_deg = 0;
   tag.shift_x = 0;
   tag.position_in_site += Eigen::Vector3d(-22, 30, 6);
@@ -54,7 +51,7 @@ ViewTag RememberedTag() {
 // A person points at corners of the house, as well as a person can.
 std::vector<ControlPoint> PointAtHouse(const std::vector<Eigen::Vector3d>& points_in_world,
                                        double sigma_px) {
-  const Camera camera = CameraFromTag(TrueTag(), kWidth, kHeight);
+  const Camera camera = CameraFromTag(SlidTag(), kPhotoWidth, kPhotoHeight);
   std::mt19937_64 random(4);
   std::normal_distribution<double> error(0, sigma_px);
   std::vector<ControlPoint> points;
@@ -102,9 +99,10 @@ TEST(ControlPoints, FaultsNameFileAndLine) {
 }
 
 TEST(ControlPointCost, DerivativesAreThoseOfTheResiduals) {
-  ViewTag tag = TrueTag();
+  ViewTag tag = SlidTag();
   tag.k2 = 0.01;
-  const CameraPrior prior = MakeCameraPrior(tag, kWidth, kHeight, LengthUnit::kFoot, {}, {});
+  const CameraPrior prior =
+      MakeCameraPrior(tag, kPhotoWidth, kPhotoHeight, LengthUnit::kFoot, {}, {});
   const std::vector<ControlPoint> points = PointAtHouse(kCorners, 2);
   const ControlPointCost cost(points, prior);
   const int count = cost.num_residuals();
@@ -132,10 +130,11 @@ TEST(ControlPointCost, DerivativesAreThoseOfTheResiduals) {
 }
 
 TEST(ControlPointCost, ResidualsAreInSigmas) {
-  const CameraPrior prior = MakeCameraPrior(TrueTag(), kWidth, kHeight, LengthUnit::kFoot, {}, {});
+  const CameraPrior prior =
+      MakeCameraPrior(SlidTag(), kPhotoWidth, kPhotoHeight, LengthUnit::kFoot, {}, {});
   std::vector<ControlPoint> points = PointAtHouse({kCorners[0]}, 2);
-  points[0].image_px =
-      *Project(CameraFromTag(TrueTag(), kWidth, kHeight), kCorners[0]) - Eigen::Vector2d(6, -3);
+  points[0].image_px = *Project(CameraFromTag(SlidTag(), kPhotoWidth, kPhotoHeight), kCorners[0]) -
+                       Eigen::Vector2d(6, -3);
   const ControlPointCost cost(points, prior);
   const CameraParameters whitened = CameraParameters::Zero();
   const double* block = whitened.data();
@@ -146,7 +145,8 @@ TEST(ControlPointCost, ResidualsAreInSigmas) {
 }
 
 TEST(ControlPointPosterior, WithoutPointsItIsTheTags) {
-  const CameraPrior prior = MakeCameraPrior(TrueTag(), kWidth, kHeight, LengthUnit::kFoot, {}, {});
+  const CameraPrior prior =
+      MakeCameraPrior(SlidTag(), kPhotoWidth, kPhotoHeight, LengthUnit::kFoot, {}, {});
   const ControlPointPosterior pointed = ConditionOnControlPoints({}, prior);
   EXPECT_EQ(pointed.prior.mean, prior.mean);
   EXPECT_EQ(pointed.prior.root, prior.root);
@@ -155,7 +155,7 @@ TEST(ControlPointPosterior, WithoutPointsItIsTheTags) {
 
 TEST(ControlPointPosterior, BothWaysOfSayingItAgree) {
   const CameraPrior prior =
-      MakeCameraPrior(RememberedTag(), kWidth, kHeight, LengthUnit::kFoot, {}, {});
+      MakeCameraPrior(RememberedTag(), kPhotoWidth, kPhotoHeight, LengthUnit::kFoot, {}, {});
   const ControlPointPosterior pointed = ConditionOnControlPoints(PointAtHouse(kCorners, 2), prior);
   const CameraParameters v = CameraParameters::LinSpaced(-1, 1);
   EXPECT_LT((pointed.prior.mean + pointed.prior.root * v -
@@ -168,7 +168,7 @@ TEST(ControlPointPosterior, BothWaysOfSayingItAgree) {
 TEST(RegisterPhotograph, FourPointsSolveAStartThatEdgesCannot) {
   const PolygonModel model = MakeHouse();
   const EdgeModel edge_model(model);
-  const Camera truth = CameraFromTag(TrueTag(), kWidth, kHeight);
+  const Camera truth = CameraFromTag(SlidTag(), kPhotoWidth, kPhotoHeight);
   const Image8 photograph = PhotographModel(model, truth, 2, 1);
   const Registration alone =
       RegisterPhotograph({"s1", photograph, {}, RememberedTag(), {}}, edge_model, {});
@@ -189,12 +189,12 @@ TEST(RegisterPhotograph, FourPointsSolveAStartThatEdgesCannot) {
 
 TEST(RegisterPhotograph, AMistypedPointIsNamed) {
   const PolygonModel model = MakeHouse();
-  const Camera truth = CameraFromTag(TrueTag(), kWidth, kHeight);
+  const Camera truth = CameraFromTag(SlidTag(), kPhotoWidth, kPhotoHeight);
   RegisterOptions options;
   options.control_points = PointAtHouse(kCorners, 2);
   options.control_points[2].image_px.x() += 100;
   const Registration registration = RegisterPhotograph(
-      {"s1", PhotographModel(model, truth, 2, 1), {}, TrueTag(), {}}, EdgeModel(model), options);
+      {"s1", PhotographModel(model, truth, 2, 1), {}, SlidTag(), {}}, EdgeModel(model), options);
   EXPECT_NE(registration.verdict, Verdict::kAccepted);
   EXPECT_THAT(registration.reasons, testing::Contains(HasSubstr("the control point at ")));
 }
@@ -202,10 +202,10 @@ TEST(RegisterPhotograph, AMistypedPointIsNamed) {
 // The points are in the photograph's pixels, whatever size it is registered at.
 TEST(RegisterPhotograph, PointsFollowThePhotographWhenItIsReduced) {
   const PolygonModel model = MakeHouse();
-  const Camera truth = CameraFromTag(TrueTag(), kWidth, kHeight);
+  const Camera truth = CameraFromTag(SlidTag(), kPhotoWidth, kPhotoHeight);
   RegisterOptions options;
   options.control_points = PointAtHouse(kCorners, 2);
-  options.max_width_px = kWidth / 2;
+  options.max_width_px = kPhotoWidth / 2;
   const Registration registration =
       RegisterPhotograph({"s1", PhotographModel(model, truth, 2, 1), {}, RememberedTag(), {}},
                          EdgeModel(model),

@@ -13,9 +13,6 @@
 namespace groundglass {
 namespace {
 
-constexpr int kWidth = 600;
-constexpr int kHeight = 400;
-
 ViewTag TagAt(double x, double y, double z, double i, double j, double k) {
   ViewTag tag;
   tag.position_in_site = {x, y, z};
@@ -51,7 +48,7 @@ std::vector<PhotographAlignment> AlignAll(const PolygonModel& built, const EdgeM
   const std::vector<ViewTag> measured = MeasuredTags();
   for (size_t i = 0; i < truth.size(); ++i) {
     const Image8 photograph =
-        PhotographModel(built, CameraFromTag(truth[i], kWidth, kHeight), 2, i + 1);
+        PhotographModel(built, CameraFromTag(truth[i], kPhotoWidth, kPhotoHeight), 2, i + 1);
     alignments.push_back(AlignPhotograph(
         {"s" + std::to_string(i + 1), photograph, {}, measured[i], {}}, edge_model, {}));
   }
@@ -63,7 +60,7 @@ double MeanVertexErrorPx(const PolygonModel& model,
   double sum = 0;
   for (size_t i = 0; i < alignments.size(); ++i) {
     sum += VertexErrorPx(model,
-                         CameraFromTag(TrueTags()[i], kWidth, kHeight),
+                         CameraFromTag(TrueTags()[i], kPhotoWidth, kPhotoHeight),
                          alignments[i].registration.CorrectedCamera());
   }
   return sum / static_cast<double>(alignments.size());
@@ -175,10 +172,12 @@ TEST(RefineSet, TheScoreIsThatOfTheCameraThatIsWritten) {
   for (size_t i = 0; i < alignments.size(); ++i) {
     const Registration& registration = alignments[i].registration;
     const EdgeEvidence evidence(
-        PhotographModel(built, CameraFromTag(TrueTags()[i], kWidth, kHeight), 2, i + 1), {});
+        PhotographModel(built, CameraFromTag(TrueTags()[i], kPhotoWidth, kPhotoHeight), 2, i + 1),
+        {});
     const AlignmentScore score = ScoreAlignment(
         SampleVisibleEdges(edge_model, registration.CorrectedCamera(), -3, 4),
-        ParameterProjection(ParametersFromTag(registration.corrected), {}, kWidth, kHeight),
+        ParameterProjection(
+            ParametersFromTag(registration.corrected), {}, kPhotoWidth, kPhotoHeight),
         evidence,
         {});
     EXPECT_NE(registration.score_nats, alone[i]);
@@ -251,7 +250,7 @@ TEST(RefineTogether, LockedParametersStayLocked) {
   std::vector<PhotographAlignment> alignments;
   for (size_t i = 0; i < 2; ++i) {
     const Image8 photograph =
-        PhotographModel(model, CameraFromTag(TrueTags()[i], kWidth, kHeight), 2, i + 1);
+        PhotographModel(model, CameraFromTag(TrueTags()[i], kPhotoWidth, kPhotoHeight), 2, i + 1);
     alignments.push_back(AlignPhotograph(
         {"s" + std::to_string(i), photograph, {}, MeasuredTags()[i], {}}, edge_model, options));
   }

@@ -13,9 +13,9 @@ namespace {
 constexpr int kNumSamples = 8;
 
 // One edge in one photograph, its samples anywhere about where the camera sees it.
-class Fixture {
+class SharedEdgeFixture {
  public:
-  Fixture() {
+  SharedEdgeFixture() {
     ViewTag tag;
     tag.position_in_site = {30, 60, 5};
     tag.lookat_in_site = {20, 0, 10};
@@ -82,13 +82,13 @@ class Fixture {
 };
 
 TEST(SharedEdgeCost, JacobiansOfAllBlocksMatchFiniteDifferences) {
-  const Fixture fixture;
-  Fixture::Values at = Fixture::Values::LinSpaced(-0.4, 0.5);
-  Fixture::Jacobian jacobian;
+  const SharedEdgeFixture fixture;
+  SharedEdgeFixture::Values at = SharedEdgeFixture::Values::LinSpaced(-0.4, 0.5);
+  SharedEdgeFixture::Jacobian jacobian;
   fixture.Evaluate(at, &jacobian);
-  for (int i = 0; i < Fixture::kNumValues; ++i) {
+  for (int i = 0; i < SharedEdgeFixture::kNumValues; ++i) {
     constexpr double kStep = 1e-5;
-    Fixture::Values ahead = at, behind = at;
+    SharedEdgeFixture::Values ahead = at, behind = at;
     ahead[i] += kStep;
     behind[i] -= kStep;
     const Eigen::VectorXd difference =

@@ -9,8 +9,8 @@
 namespace groundglass {
 namespace {
 
-struct Fixture {
-  Fixture() {
+struct TiePointFixture {
+  TiePointFixture() {
     ViewTag tag;
     tag.position_in_site = {30, 60, 5};
     tag.lookat_in_site = {20, 0, 10};
@@ -52,13 +52,13 @@ struct Fixture {
 };
 
 TEST(TiePointCost, JacobiansOfAllBlocksMatchFiniteDifferences) {
-  const Fixture fixture;
-  const Fixture::Values at = Fixture::Values::LinSpaced(-0.4, 0.5);
-  Fixture::Jacobian jacobian;
+  const TiePointFixture fixture;
+  const TiePointFixture::Values at = TiePointFixture::Values::LinSpaced(-0.4, 0.5);
+  TiePointFixture::Jacobian jacobian;
   fixture.Evaluate(at, &jacobian);
-  for (int i = 0; i < Fixture::kNumValues; ++i) {
+  for (int i = 0; i < TiePointFixture::kNumValues; ++i) {
     constexpr double kStep = 1e-5;
-    Fixture::Values step = Fixture::Values::Zero();
+    TiePointFixture::Values step = TiePointFixture::Values::Zero();
     step[i] = kStep;
     const Eigen::Vector2d numeric =
         (fixture.Evaluate(at + step, nullptr) - fixture.Evaluate(at - step, nullptr)) / (2 * kStep);
@@ -67,16 +67,16 @@ TEST(TiePointCost, JacobiansOfAllBlocksMatchFiniteDifferences) {
 }
 
 TEST(TiePointCost, IsZeroWhereThePointIsSeen) {
-  Fixture fixture;
+  TiePointFixture fixture;
   fixture.observation.image_px =
       fixture.prior.ProjectionAt(CameraParameters::Zero(), LensParameters::Zero())
           .Project({21, 2, 10})
           ->image_px;
-  EXPECT_LT(fixture.Evaluate(Fixture::Values::Zero(), nullptr).norm(), 1e-9);
+  EXPECT_LT(fixture.Evaluate(TiePointFixture::Values::Zero(), nullptr).norm(), 1e-9);
 }
 
 TEST(FrameOfTiePoint, ItsThirdAxisIsTheFacesNormal) {
-  const Fixture fixture;
+  const TiePointFixture fixture;
   const Eigen::Matrix3d axes = fixture.frame.axes_in_world / 0.1;
   EXPECT_TRUE((axes.transpose() * axes).isIdentity(1e-12));
   EXPECT_TRUE(axes.col(2).isApprox(Eigen::Vector3d(0.1, -1, 0.2).normalized()));

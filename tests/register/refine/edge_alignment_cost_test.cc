@@ -9,11 +9,11 @@
 namespace groundglass {
 namespace {
 
-struct Fixture {
+struct AlignmentFixture {
   CameraPrior prior;
   std::vector<AlignedSample> samples;
 
-  Fixture() {
+  AlignmentFixture() {
     ViewTag tag;
     tag.position_in_site = {30, 60, 5};
     tag.lookat_in_site = {20, 0, 10};
@@ -45,7 +45,7 @@ struct Fixture {
 };
 
 TEST(EdgeAlignmentCost, SquaredResidualsAreThoseOfTheFullCovariance) {
-  const Fixture fixture;
+  const AlignmentFixture fixture;
   const Eigen::VectorXd whitened = fixture.Residuals(CameraParameters::Zero());
   const auto count = static_cast<Eigen::Index>(fixture.samples.size());
   Eigen::VectorXd raw(count);
@@ -64,7 +64,7 @@ TEST(EdgeAlignmentCost, SquaredResidualsAreThoseOfTheFullCovariance) {
 }
 
 TEST(EdgeAlignmentCost, JacobianMatchesFiniteDifferences) {
-  const Fixture fixture;
+  const AlignmentFixture fixture;
   CameraParameters at;
   at << 0.1, -0.2, 0.3, 0.1, 0.2, -0.1, 0.3, 0.2, -0.2, 0.1, 0.4;
   const EdgeAlignmentCost cost(fixture.samples, fixture.prior);

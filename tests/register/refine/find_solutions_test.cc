@@ -11,25 +11,22 @@
 namespace groundglass {
 namespace {
 
-constexpr int kWidth = 300;
-constexpr int kHeight = 200;
-
 // The stages replaced by functions that answer at once, so that only their order is tested.
-struct Fixture {
+struct SearchFixture {
   PolygonModel model = MakeHouse();
   EdgeModel edge_model{model};
-  Image8 blank = Image8(kWidth, kHeight, 1);
+  Image8 blank = Image8(kSmallWidth, kSmallHeight, 1);
   EdgeEvidence evidence{blank, {}};
   CameraPrior prior;
   SolutionOptions options;
   int num_searches = 0;
   int num_refinements = 0;
 
-  Fixture() {
+  SearchFixture() {
     ViewTag tag;
     tag.position_in_site = {60, 70, 6};
     tag.lookat_in_site = {20, 0, 10};
-    prior = MakeCameraPrior(tag, kWidth, kHeight, LengthUnit::kFoot, {}, {});
+    prior = MakeCameraPrior(tag, kSmallWidth, kSmallHeight, LengthUnit::kFoot, {}, {});
     options.stages.find_hypotheses = [this](const auto&, const auto&, const auto&, const auto&) {
       ++num_searches;
       std::vector<Hypothesis> starts(3);
@@ -67,7 +64,7 @@ struct Fixture {
 };
 
 TEST(FindSolutions, RefinesEveryStartAndGivesTheBestFirst) {
-  Fixture fixture;
+  SearchFixture fixture;
   const std::vector<Solution> solutions = fixture.Find();
   ASSERT_EQ(solutions.size(), 3u);
   EXPECT_EQ(fixture.num_searches, 1);
@@ -77,21 +74,21 @@ TEST(FindSolutions, RefinesEveryStartAndGivesTheBestFirst) {
 }
 
 TEST(FindSolutions, WithoutASearchTheTagAloneIsRefined) {
-  Fixture fixture;
+  SearchFixture fixture;
   fixture.options.hypotheses.max_starts = 0;
   EXPECT_EQ(fixture.Find().size(), 1u);
   EXPECT_EQ(fixture.num_searches, 0);
 }
 
 TEST(FindSolutions, ATagThatSeesNothingOfTheModelHasNone) {
-  Fixture fixture;
+  SearchFixture fixture;
   fixture.options.min_samples = 100000;
   EXPECT_TRUE(fixture.Find().empty());
   EXPECT_EQ(fixture.num_refinements, 0);
 }
 
 TEST(FindSolutions, WhereThePriorBendsItSearchesAgainUntilAScoreIsGood) {
-  Fixture fixture;
+  SearchFixture fixture;
   fixture.prior.root *= 20;  // so wide that edges' paths bend
   fixture.options.hypotheses.max_rounds = 3;
   fixture.options.hypotheses.num_centres = 2;
@@ -104,20 +101,20 @@ TEST(FindSolutions, WhereThePriorBendsItSearchesAgainUntilAScoreIsGood) {
   EXPECT_EQ(fixture.num_searches, 1);
 }
 
-SecondBest FindElsewhere(const std::vector<Solution>& solutions, const Fixture& fixture) {
+SecondBest FindElsewhere(const std::vector<Solution>& solutions, const SearchFixture& fixture) {
   return FindSecondBest(
       solutions.front(), fixture.prior, solutions, fixture.prior, fixture.options);
 }
 
 TEST(FindSecondBest, IsTheBestThatLiesElsewhere) {
-  Fixture fixture;
+  SearchFixture fixture;
   const std::vector<Solution> solutions = fixture.Find();
   fixture.options.distinct_distance_px = 0;
   const SecondBest near = FindElsewhere(solutions, fixture);
   EXPECT_EQ(near.solution, &solutions[1]);
   EXPECT_GT(near.distance_px, 0);
   // Beyond the second but not the third, at a width of 1200.
-  fixture.options.distinct_distance_px = near.distance_px * 1200 / kWidth;
+  fixture.options.distinct_distance_px = near.distance_px * 1200 / kSmallWidth;
   EXPECT_EQ(FindElsewhere(solutions, fixture).solution, &solutions[2]);
   fixture.options.distinct_distance_px = 1e6;
   EXPECT_EQ(FindElsewhere(solutions, fixture).solution, nullptr);

@@ -11,32 +11,29 @@
 namespace groundglass {
 namespace {
 
-constexpr int kWidth = 600;
-constexpr int kHeight = 400;
-
 // The house from the south-east; its photograph hardly has noise.
 struct HouseAndPhotograph {
   PolygonModel model = MakeHouse();
   EdgeModel edge_model{model};
   ViewTag true_tag;
   Camera truth;
-  EdgeEvidence evidence{Image8(kWidth, kHeight, 1), {}};
+  EdgeEvidence evidence{Image8(kPhotoWidth, kPhotoHeight, 1), {}};
 
   HouseAndPhotograph() {
     true_tag.position_in_site = {62, 48, 5};
     true_tag.lookat_in_site = {20, -4, 11};
     true_tag.aspect = 1.5;
     true_tag.view_angle_deg = 54;
-    truth = CameraFromTag(true_tag, kWidth, kHeight);
+    truth = CameraFromTag(true_tag, kPhotoWidth, kPhotoHeight);
     evidence = EdgeEvidence(PhotographModel(model, truth, 0.5, 1), {});
   }
 
   // A tag that sees the house this far to the right of where it is, and as far below.
   CameraPrior PriorOff(double px) const {
     ViewTag measured = true_tag;
-    measured.shift_x += px / std::sqrt(2) / kWidth;
-    measured.shift_y += px / std::sqrt(2) / kWidth;
-    return MakeCameraPrior(measured, kWidth, kHeight, model.unit, {}, {});
+    measured.shift_x += px / std::sqrt(2) / kPhotoWidth;
+    measured.shift_y += px / std::sqrt(2) / kPhotoWidth;
+    return MakeCameraPrior(measured, kPhotoWidth, kPhotoHeight, model.unit, {}, {});
   }
 };
 
@@ -66,10 +63,10 @@ TEST(RefinePhotograph, AStartOffAllEdgesDoesNotConverge) {
   tag.aspect = 1.5;
   tag.view_angle_deg = 54;
   tag.shift_x = -1.0 / 6;
-  const EdgeEvidence evidence(PhotographModel(model, CameraFromTag(tag, kWidth, kHeight), 0, 1),
-                              {});
+  const EdgeEvidence evidence(
+      PhotographModel(model, CameraFromTag(tag, kPhotoWidth, kPhotoHeight), 0, 1), {});
   tag.shift_x = 1.0 / 6;
-  const CameraPrior prior = MakeCameraPrior(tag, kWidth, kHeight, model.unit, {}, {});
+  const CameraPrior prior = MakeCameraPrior(tag, kPhotoWidth, kPhotoHeight, model.unit, {}, {});
   const Refinement refined =
       RefinePhotograph(CameraParameters::Zero(), EdgeModel(model), evidence, prior, {});
   EXPECT_GT(refined.samples.size(), 30u);
@@ -79,7 +76,7 @@ TEST(RefinePhotograph, AStartOffAllEdgesDoesNotConverge) {
 
 TEST(RefinePhotograph, APhotographWithoutEdgesLeavesTheStartAndThePrior) {
   const HouseAndPhotograph house;
-  const EdgeEvidence blank(Image8(kWidth, kHeight, 1, 128), {});
+  const EdgeEvidence blank(Image8(kPhotoWidth, kPhotoHeight, 1, 128), {});
   const CameraPrior prior = house.PriorOff(0);
   const CameraParameters start = 0.1 * CameraParameters::Ones();
   const Refinement refined = RefinePhotograph(start, house.edge_model, blank, prior, {});

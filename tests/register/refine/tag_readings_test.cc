@@ -16,10 +16,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr int kWidth = 300;
-constexpr int kHeight = 200;
-
-ViewTag TrueTag() {
+ViewTag FarTag() {
   ViewTag tag;
   tag.position_in_site = {60, 70, 6};
   tag.lookat_in_site = {20, 0, 10};
@@ -29,17 +26,17 @@ ViewTag TrueTag() {
 
 // A search that proposes the true camera wherever the prior holds it, and the tag's own; refinement
 // that stays where it starts; and a score that falls with the distance from the true camera.
-struct Fixture {
+struct ReadingFixture {
   PolygonModel model = MakeHouse();
   EdgeModel edge_model{model};
-  Image8 blank = Image8(kWidth, kHeight, 1);
+  Image8 blank = Image8(kSmallWidth, kSmallHeight, 1);
   EdgeEvidence evidence{blank, {}};
   SolutionOptions solutions;
   ReadingOptions options;
-  CameraParameters truth = ParametersFromTag(TrueTag());
+  CameraParameters truth = ParametersFromTag(FarTag());
   double most_nats_per_observation = 1;
 
-  Fixture() {
+  ReadingFixture() {
     solutions.stages.find_hypotheses =
         [this](const auto&, const CameraPrior& prior, const auto&, const HypothesisOptions& own) {
           std::vector<Hypothesis> starts;
@@ -62,7 +59,7 @@ struct Fixture {
     solutions.stages.score =
         [this](const auto&, const ParameterProjection& projection, const auto&, const auto&) {
           const ParameterProjection meant =
-              PriorOf(TrueTag()).ProjectionAt(CameraParameters::Zero());
+              PriorOf(FarTag()).ProjectionAt(CameraParameters::Zero());
           double off = 0;
           for (const Eigen::Vector3d& point : model.points_in_world) {
             const auto seen_px = projection.ImageOf(point);
@@ -75,7 +72,7 @@ struct Fixture {
   }
 
   CameraPrior PriorOf(const ViewTag& tag) const {
-    return MakeCameraPrior(tag, kWidth, kHeight, LengthUnit::kFoot, {}, {});
+    return MakeCameraPrior(tag, kSmallWidth, kSmallHeight, LengthUnit::kFoot, {}, {});
   }
 
   std::vector<TagReading> Read(const ViewTag& written, std::vector<NamedTag> others = {}) const {
@@ -92,15 +89,15 @@ struct Fixture {
 };
 
 TEST(ReadTag, OneThatFitsIsReadAsItIsWrittenOnly) {
-  const std::vector<TagReading> readings = Fixture().Read(TrueTag());
+  const std::vector<TagReading> readings = ReadingFixture().Read(FarTag());
   ASSERT_EQ(readings.size(), 1u);
   EXPECT_EQ(readings[0].slip, "");
   EXPECT_EQ(readings[0].widening, 1);
 }
 
 TEST(ReadTag, OneThatIsFarOffIsReadWithLargerErrors) {
-  const Fixture fixture;
-  ViewTag written = TrueTag();
+  const ReadingFixture fixture;
+  ViewTag written = FarTag();
   // With the look-at point, so that the direction stays.
   const double off = 8 * fixture.PriorOf(written).sigmas[kPositionX];
   written.position_in_site.x() += off;
@@ -112,7 +109,7 @@ TEST(ReadTag, OneThatIsFarOffIsReadWithLargerErrors) {
   const CameraParameters found =
       readings[0].prior.ParametersAt(readings[0].solutions.front().refinement.whitened);
   EXPECT_NEAR(found[kPositionX], fixture.truth[kPositionX], 1e-6);
-  Fixture never;
+  ReadingFixture never;
   never.options.wider_factor = 1;
   never.options.num_slips = 0;
   for (const TagReading& reading : never.Read(written)) EXPECT_EQ(reading.widening, 1);
@@ -120,36 +117,36 @@ TEST(ReadTag, OneThatIsFarOffIsReadWithLargerErrors) {
 
 // A camera that the tag allows is the tag's own, even where only the wider search has found it.
 TEST(ReadTag, WhatTheTagAllowsIsNotTakenForALargerError) {
-  Fixture fixture;
+  ReadingFixture fixture;
   fixture.most_nats_per_observation = 0.4;  // doubtful, however right
-  const std::vector<TagReading> readings = fixture.Read(TrueTag());
+  const std::vector<TagReading> readings = fixture.Read(FarTag());
   ASSERT_FALSE(readings.empty());
   EXPECT_EQ(readings[0].widening, 1);
   EXPECT_GT(readings[0].solutions.size(), 2u);
 }
 
 TEST(ReadTag, ASlipOfThePenIsNamed) {
-  ViewTag written = TrueTag();
+  ViewTag written = FarTag();
   written.position_in_site.y() *= -1;
-  const std::vector<TagReading> readings = Fixture().Read(written);
+  const std::vector<TagReading> readings = ReadingFixture().Read(written);
   ASSERT_FALSE(readings.empty());
   EXPECT_EQ(readings[0].slip, "the sign of y changed (it counts south)");
-  Fixture none;
+  ReadingFixture none;
   none.options.num_slips = 0;
   for (const TagReading& reading : none.Read(written)) EXPECT_EQ(reading.slip, "");
 }
 
 TEST(ReadTag, AnotherPhotographsNumbersAreNamed) {
-  ViewTag written = TrueTag();
+  ViewTag written = FarTag();
   written.position_in_site = {-80, 35, 5};
-  const std::vector<TagReading> readings = Fixture().Read(written, {{"s7", TrueTag()}});
+  const std::vector<TagReading> readings = ReadingFixture().Read(written, {{"s7", FarTag()}});
   ASSERT_FALSE(readings.empty());
   EXPECT_EQ(readings[0].slip, "the numbers of s7");
 }
 
 TEST(FindRival, IsTheBestElsewhereInAnyReading) {
-  const Fixture fixture;
-  const CameraPrior prior = fixture.PriorOf(TrueTag());
+  const ReadingFixture fixture;
+  const CameraPrior prior = fixture.PriorOf(FarTag());
   const auto solution = [&](double x, double nats) {
     Solution made;
     made.refinement.whitened[0] = x;
@@ -179,7 +176,7 @@ struct HouseFromTheSouthEast {
   Camera camera;
   Image8 photograph;
 
-  HouseFromTheSouthEast() : truth(TrueTag()) {
+  HouseFromTheSouthEast() : truth(FarTag()) {
     truth.position_in_site = {62, 48, 5};
     truth.lookat_in_site = {20, -4, 11};
     camera = CameraFromTag(truth, 600, 400);

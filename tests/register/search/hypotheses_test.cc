@@ -11,9 +11,6 @@
 namespace groundglass {
 namespace {
 
-constexpr int kWidth = 600;
-constexpr int kHeight = 400;
-
 // The house from the south-east, its photograph, and what the search is given of them. The slide
 // lies this far off in its mount, as shares of the frame, and turned.
 struct SlideOffRegister {
@@ -21,7 +18,7 @@ struct SlideOffRegister {
   EdgeModel edge_model{model};
   ViewTag tag;
   Camera truth;
-  EdgeEvidence evidence{Image8(kWidth, kHeight, 1), {}};
+  EdgeEvidence evidence{Image8(kPhotoWidth, kPhotoHeight, 1), {}};
   CameraPrior prior;
   std::vector<EdgeSample> samples;
 
@@ -34,11 +31,11 @@ struct SlideOffRegister {
     true_tag.shift_x = shift_x;
     true_tag.shift_y = shift_y;
     true_tag.roll_deg = roll_deg;
-    truth = CameraFromTag(true_tag, kWidth, kHeight);
+    truth = CameraFromTag(true_tag, kPhotoWidth, kPhotoHeight);
     evidence = EdgeEvidence(PhotographModel(model, truth, 2, 1), {});
-    prior = MakeCameraPrior(tag, kWidth, kHeight, model.unit, {}, {});
-    samples =
-        SampleVisibleEdges(edge_model, prior.CameraAt(CameraParameters::Zero()), 0.02 * kWidth, 10);
+    prior = MakeCameraPrior(tag, kPhotoWidth, kPhotoHeight, model.unit, {}, {});
+    samples = SampleVisibleEdges(
+        edge_model, prior.CameraAt(CameraParameters::Zero()), 0.02 * kPhotoWidth, 10);
   }
 
   std::vector<Hypothesis> Find(const HypothesisOptions& options = {}) const {
@@ -59,7 +56,7 @@ TEST(FindHypotheses, TheOneNearestTheTruthIsAmongThem) {
   const auto nearest = std::ranges::min_element(
       hypotheses, {}, [&](const Hypothesis& one) { return slide.ErrorPx(one); });
   // Two cells of the search: refinement looks farther than that.
-  EXPECT_LT(slide.ErrorPx(*nearest), 2.0 * kWidth / HypothesisOptions().width_cells);
+  EXPECT_LT(slide.ErrorPx(*nearest), 2.0 * kPhotoWidth / HypothesisOptions().width_cells);
 }
 
 TEST(FindHypotheses, TheBestComeFirstAndTheTagLast) {

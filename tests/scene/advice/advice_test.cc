@@ -7,6 +7,7 @@
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/tags_csv.h"
 #include "scene/frames.h"
+#include "tests/support/brick_scene.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -24,9 +25,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-const std::filesystem::path kBrick =
-    std::filesystem::path(GROUNDGLASS_SOURCE_DIR) / "datasets-synthetic" / "brick";
 
 Scene ReadBrick() {
   static const Scene scene = ReadScene(kBrick);

@@ -8,6 +8,7 @@
 #include "scene/formats/view_io.h"
 #include "scene/frames.h"
 #include "scene/visibility.h"
+#include "tests/support/brick_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 
@@ -22,8 +23,6 @@ namespace groundglass {
 namespace {
 
 using testing::HasSubstr;
-
-const std::string kBrick = std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick";
 
 std::vector<NamedCamera> SampleCameras() {
   std::vector<NamedCamera> cameras;
@@ -149,10 +148,10 @@ TEST(ColmapModel, BadOnesGiveOneLine) {
 // The brick scene's truth, made by another program, ties our frames to the world outside.
 
 TEST(BrickTruth, CamerasAgreeWithTheMatricesFromSiteToScan) {
-  const PolygonModel model = ReadOsu(kBrick + "/model.osu").model;
-  std::ifstream in(kBrick + "/truth/truth.json");
+  const PolygonModel model = ReadOsu(kBrick / "model.osu").model;
+  std::ifstream in(kBrick / "truth/truth.json");
   const nlohmann::json truth = nlohmann::json::parse(in);
-  const std::vector<NamedCamera> cameras = ReadColmapModel(kBrick + "/truth/cameras");
+  const std::vector<NamedCamera> cameras = ReadColmapModel(kBrick / "truth/cameras");
   ASSERT_EQ(cameras.size(), 12u);
   for (const NamedCamera& named : cameras) {
     const nlohmann::json* view = nullptr;
@@ -178,12 +177,12 @@ TEST(BrickTruth, CamerasAgreeWithTheMatricesFromSiteToScan) {
 }
 
 TEST(BrickTruth, ModelSeenThroughTheTrueCamerasCoversTheTrueMasks) {
-  const PolygonModel model = ReadOsu(kBrick + "/model.osu").model;
+  const PolygonModel model = ReadOsu(kBrick / "model.osu").model;
   const Visibility visibility(model);
-  for (const NamedCamera& named : ReadColmapModel(kBrick + "/truth/cameras")) {
+  for (const NamedCamera& named : ReadColmapModel(kBrick / "truth/cameras")) {
     if (named.name != "s1.jpg" && named.name != "s8.jpg") continue;
     const std::string stem = named.name.substr(0, named.name.size() - 4);
-    const Image16 truth = ReadLabels(kBrick + "/truth/masks_model/" + stem + ".png");
+    const Image16 truth = ReadLabels(kBrick / "truth/masks_model" / (stem + ".png"));
     const Image16 labels = visibility.FaceLabels(named.camera);
     ASSERT_EQ(labels.values.size(), truth.values.size());
     size_t num_equal = 0;

@@ -4,6 +4,7 @@
 
 #include "scene/formats/colmap_io.h"
 #include "scene/formats/view_io.h"
+#include "tests/support/brick_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 
@@ -15,16 +16,14 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kBrick = std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick";
-
 TEST(ConvertCameras, ViewsToColmapAndBackGiveTheSameCameras) {
   const TemporaryFolder folder;
-  ConvertViewsToColmap(kBrick + "/views", folder / "colmap", kBrick + "/images");
+  ConvertViewsToColmap(kBrick / "views", folder / "colmap", kBrick / "images");
   const std::vector<NamedCamera> cameras = ReadColmapModel(folder / "colmap");
   ASSERT_EQ(cameras.size(), 12u);
   EXPECT_EQ(cameras[1].name, "s2.jpg");
   ConvertColmapToViews(folder / "colmap", folder / "views", 50);
-  const Camera first = CameraFromTag(ReadView(kBrick + "/views/s2.view"), 1200, 800);
+  const Camera first = CameraFromTag(ReadView(kBrick / "views/s2.view"), 1200, 800);
   const Camera again = CameraFromTag(ReadView(folder / "views/s2.view"), 1200, 800);
   EXPECT_LT((first.cam_from_world.rotation - again.cam_from_world.rotation).norm(), 1e-12);
   EXPECT_LT((first.PositionInWorld() - again.PositionInWorld()).norm(), 1e-11);
@@ -33,14 +32,14 @@ TEST(ConvertCameras, ViewsToColmapAndBackGiveTheSameCameras) {
 
 TEST(ConvertModel, OsuToObjAndBackIsTheSameModel) {
   const TemporaryFolder folder;
-  ConvertModel(kBrick + "/model.osu", folder / "m.obj", {});
+  ConvertModel(kBrick / "model.osu", folder / "m.obj", {});
   ConvertModel(folder / "m.obj", folder / "a.osu", {});
-  ConvertModel(kBrick + "/model.osu", folder / "b.osu", {});
+  ConvertModel(kBrick / "model.osu", folder / "b.osu", {});
   EXPECT_EQ(ReadTextFile(folder / "a.osu"), ReadTextFile(folder / "b.osu"));
 }
 
 TEST(ConvertModel, RefusesFormatsThatItCannotWrite) {
-  EXPECT_THAT(ThrownMessage([] { ConvertModel(kBrick + "/model.osu", "m.ply", {}); }),
+  EXPECT_THAT(ThrownMessage([] { ConvertModel(kBrick / "model.osu", "m.ply", {}); }),
               HasSubstr("m.ply: a model is written as .osu, .obj or .glb"));
 }
 

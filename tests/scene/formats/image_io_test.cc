@@ -4,6 +4,7 @@
 
 #include "scene/formats/view_io.h"
 #include "scene/srgb.h"
+#include "tests/scene/formats/colour_ramp.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 
@@ -33,17 +34,6 @@ void WriteRaw(const std::filesystem::path& file,
 }
 
 // A smooth ramp that JPEG keeps well: red grows to the right, green downwards.
-Image8 Ramp(int width, int height) {
-  Image8 image(width, height, 3);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      image.At(x, y)[0] = static_cast<uint8_t>(40 + 2 * x);
-      image.At(x, y)[1] = static_cast<uint8_t>(50 + 3 * y);
-      image.At(x, y)[2] = 100;
-    }
-  }
-  return image;
-}
 
 TEST(Srgb, KnownValues) {
   EXPECT_FLOAT_EQ(LinearFromSrgb(0), 0);
@@ -81,7 +71,7 @@ class LosslessTest : public testing::TestWithParam<const char*> {};
 TEST_P(LosslessTest, KeepsEveryByte) {
   const TemporaryFolder folder;
   const auto file = folder / (std::string("ramp") + GetParam());
-  const Image8 ramp = Ramp(60, 40);
+  const Image8 ramp = ColourRamp(60, 40);
   WriteSrgb8(file, ramp);
   EXPECT_EQ(ReadSrgb8(file).values, ramp.values);
   EXPECT_EQ(ReadImageSize(file).width, 60);
@@ -116,7 +106,7 @@ TEST(WriteSrgb8, JpegIsCloseAndNotSubsampled) {
 }
 
 TEST(EncodeImage, PngIsExactInMemory) {
-  const Image8 ramp = Ramp(17, 9);
+  const Image8 ramp = ColourRamp(17, 9);
   EXPECT_EQ(DecodeSrgb8(EncodeImage(ramp, ".png"), ".png").values, ramp.values);
 }
 
@@ -222,7 +212,7 @@ class CutShortTest : public testing::TestWithParam<const char*> {};
 
 TEST_P(CutShortTest, IsAnErrorWhereverItIsCut) {
   const TemporaryFolder folder;
-  Image8 noise = Ramp(80, 60);
+  Image8 noise = ColourRamp(80, 60);
   for (size_t i = 0; i < noise.values.size(); ++i) {
     noise.values[i] = static_cast<uint8_t>(noise.values[i] + (i * 2654435761u >> 13) % 30);
   }
@@ -240,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, CutShortTest, testing::Values(".jpg", ".png", 
 
 TEST(WriteImages, RefuseWhatCannotBe) {
   const TemporaryFolder folder;
-  EXPECT_THAT(ThrownMessage([&] { WriteSrgb8(folder / "a.gif", Ramp(4, 4)); }),
+  EXPECT_THAT(ThrownMessage([&] { WriteSrgb8(folder / "a.gif", ColourRamp(4, 4)); }),
               HasSubstr("expected .jpg, .png, .tif or .exr"));
   EXPECT_THAT(ThrownMessage([&] { WriteSrgb8(folder / "a.png", Image8()); }),
               HasSubstr("without pixels"));
@@ -253,8 +243,8 @@ TEST(WriteImages, SamePixelsGiveTheSameBytes) {
   const TemporaryFolder folder;
   for (const char* extension : {".jpg", ".png", ".tif", ".exr"}) {
     const std::string name = extension;
-    WriteSrgb8(folder / ("a" + name), Ramp(50, 30));
-    WriteSrgb8(folder / ("b" + name), Ramp(50, 30));
+    WriteSrgb8(folder / ("a" + name), ColourRamp(50, 30));
+    WriteSrgb8(folder / ("b" + name), ColourRamp(50, 30));
     EXPECT_EQ(ReadTextFile(folder / ("a" + name)), ReadTextFile(folder / ("b" + name))) << name;
   }
 }

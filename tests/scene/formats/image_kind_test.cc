@@ -5,6 +5,7 @@
 
 #include "scene/formats/image_io.h"
 #include "scene/formats/view_io.h"
+#include "tests/scene/formats/colour_ramp.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 
@@ -19,18 +20,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-Image8 Ramp(int width, int height) {
-  Image8 image(width, height, 3);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      image.At(x, y)[0] = static_cast<uint8_t>(40 + 2 * x);
-      image.At(x, y)[1] = static_cast<uint8_t>(50 + 3 * y);
-      image.At(x, y)[2] = 100;
-    }
-  }
-  return image;
-}
 
 // One page after the other, as scanners' programs write them.
 void WritePages(const std::filesystem::path& file, const std::vector<Image8>& pages) {
@@ -60,7 +49,7 @@ class EveryFormatTest : public testing::TestWithParam<const char*> {};
 TEST_P(EveryFormatTest, IsReadUnderAnyName) {
   const std::string extension = GetParam();
   const TemporaryFolder folder;
-  const Image8 ramp = Ramp(64, 48);
+  const Image8 ramp = ColourRamp(64, 48);
   if (!OIIO::ImageOutput::create("a" + extension)) {
     OIIO::geterror();
     GTEST_SKIP() << "OpenImageIO here cannot write " << extension;
@@ -90,17 +79,17 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(ImageKind, TargaGoesByItsName) {
   const TemporaryFolder folder;
-  WritePages(folder / "a.tga", {Ramp(30, 20)});
-  EXPECT_EQ(ReadSrgb8(folder / "a.tga").values, Ramp(30, 20).values);
+  WritePages(folder / "a.tga", {ColourRamp(30, 20)});
+  EXPECT_EQ(ReadSrgb8(folder / "a.tga").values, ColourRamp(30, 20).values);
 }
 
 TEST(ImageKind, ATargaUnderAnotherNameIsToldByItsHeader) {
   const TemporaryFolder folder;
-  WritePages(folder / "a.tga", {Ramp(30, 20)});
+  WritePages(folder / "a.tga", {ColourRamp(30, 20)});
   for (const char* name : {"a.jpeg", "a.png", "a"}) {
     std::filesystem::copy_file(folder / "a.tga", folder / name);
     EXPECT_EQ(FindImageKind(folder / name).reader, "targa") << name;
-    EXPECT_EQ(ReadSrgb8(folder / name).values, Ramp(30, 20).values) << name;
+    EXPECT_EQ(ReadSrgb8(folder / name).values, ColourRamp(30, 20).values) << name;
   }
   // A header that no Targa has, and one whose pixels are missing.
   std::string odd = ReadTextFile(folder / "a.tga");
@@ -153,8 +142,8 @@ TEST(ImageStem, LosesOnlyAnImagesExtension) {
 
 TEST(ListImageFiles, AreThoseByContentOrName) {
   const TemporaryFolder folder;
-  WriteSrgb8(folder / "s10.png", Ramp(4, 4));
-  WriteSrgb8(folder / "s2.png", Ramp(4, 4));
+  WriteSrgb8(folder / "s10.png", ColourRamp(4, 4));
+  WriteSrgb8(folder / "s2.png", ColourRamp(4, 4));
   std::filesystem::rename(folder / "s2.png", folder / "s2");
   folder.Write("s3.jpg", "");
   folder.Write("notes.txt", "no image");
@@ -165,25 +154,25 @@ TEST(ListImageFiles, AreThoseByContentOrName) {
 
 TEST(Pages, TheLargestIsTakenAndThatIsSaid) {
   const TemporaryFolder folder;
-  WritePages(folder / "thumbnail_first.tif", {Image8(15, 10, 3, 7), Ramp(60, 40)});
-  EXPECT_EQ(ReadSrgb8(folder / "thumbnail_first.tif").values, Ramp(60, 40).values);
+  WritePages(folder / "thumbnail_first.tif", {Image8(15, 10, 3, 7), ColourRamp(60, 40)});
+  EXPECT_EQ(ReadSrgb8(folder / "thumbnail_first.tif").values, ColourRamp(60, 40).values);
   EXPECT_EQ(ReadImageSize(folder / "thumbnail_first.tif").width, 60);
   EXPECT_EQ(ReadGrey8(folder / "thumbnail_first.tif").width, 60);
   EXPECT_THAT(InspectImage(folder / "thumbnail_first.tif").warnings,
               ElementsAre(HasSubstr("thumbnail_first.tif: has 2 pages; page 2 of 60 x 40 pixels, "
                                     "the largest, is taken")));
-  WritePages(folder / "thumbnail_last.tif", {Ramp(60, 40), Image8(15, 10, 3, 7)});
+  WritePages(folder / "thumbnail_last.tif", {ColourRamp(60, 40), Image8(15, 10, 3, 7)});
   EXPECT_EQ(ReadSrgb8(folder / "thumbnail_last.tif").width, 60);
   EXPECT_THAT(InspectImage(folder / "thumbnail_last.tif").warnings, IsEmpty());
-  WritePages(folder / "book.tif", {Ramp(60, 40), Image8(60, 40, 3, 7)});
-  EXPECT_EQ(ReadSrgb8(folder / "book.tif").values, Ramp(60, 40).values);
+  WritePages(folder / "book.tif", {ColourRamp(60, 40), Image8(60, 40, 3, 7)});
+  EXPECT_EQ(ReadSrgb8(folder / "book.tif").values, ColourRamp(60, 40).values);
   EXPECT_THAT(InspectImage(folder / "book.tif").warnings,
               ElementsAre(HasSubstr("page 1 of 60 x 40 pixels, the first of the largest")));
 }
 
 TEST(JpegEnd, WithoutItsMarkIsAWarningAndCutIsAnError) {
   const TemporaryFolder folder;
-  WriteSrgb8(folder / "whole.jpg", Ramp(80, 60));
+  WriteSrgb8(folder / "whole.jpg", ColourRamp(80, 60));
   const std::string whole = ReadTextFile(folder / "whole.jpg");
   const auto no_mark = folder.Write("no_mark.jpg", whole.substr(0, whole.size() - 2));
   EXPECT_EQ(ReadSrgb8(no_mark).values, ReadSrgb8(folder / "whole.jpg").values);

@@ -4,6 +4,7 @@
 
 #include "scene/check_face.h"
 #include "scene/frames.h"
+#include "tests/support/brick_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 
@@ -19,11 +20,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::string kBrick = std::string(GROUNDGLASS_SOURCE_DIR) + "/datasets-synthetic/brick";
-
 TEST(Obj, RoundTripsToTheLastBit) {
   const TemporaryFolder folder;
-  const PolygonModel brick = ReadModel(kBrick + "/model.osu").model;
+  const PolygonModel brick = ReadModel(kBrick / "model.osu").model;
   const ModelReading again = ReadModel(folder.Write("m.obj", FormatObj(brick)));
   EXPECT_EQ(again.model.points_in_world, brick.points_in_world);
   EXPECT_EQ(again.model.unit, LengthUnit::kFoot);
