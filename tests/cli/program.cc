@@ -2,15 +2,21 @@
 // Part of Groundglass.
 #include "tests/cli/program.h"
 
+#include "cli/groundglass.h"
 #include "tests/support/temporary_folder.h"
 
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 
 namespace groundglass {
 
@@ -18,22 +24,106 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// For the shell: everything but a quote stands for itself between quotes.
-std::string Quoted(const std::string& argument) {
-  std::string quoted = "'";
-  for (char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
+// Loading the program takes longer than most of what is asked of it here. So before the first test,
+// while there is one thread, a process is forked that has it loaded, and forks again for each run.
+class ProgramServer : public testing::Environment {
+ public:
+  void SetUp() override {
+    std::fflush(nullptr);
+    if (pipe(requests_) != 0 || pipe(replies_) != 0) throw std::runtime_error("no pipe");
+    server_ = fork();
+    if (server_ < 0) throw std::runtime_error("no process");
+    if (server_ == 0) {
+      close(requests_[1]);
+      close(replies_[0]);
+      Serve();
+    }
+    close(requests_[0]);
+    close(replies_[1]);
+  }
+
+  void TearDown() override {
+    close(requests_[1]);
+    close(replies_[0]);
+    waitpid(server_, nullptr, 0);
+  }
+
+  // The folder holds `arguments`, each with a 0 behind it, and is given `out` and `err`; returns
+  // what waitpid() says.
+  int Run(const fs::path& folder) {
+    // A test may have lowered its limit on file sizes, to fill a disk.
+    rlimit most_bytes;
+    getrlimit(RLIMIT_FSIZE, &most_bytes);
+    prlimit(server_, RLIMIT_FSIZE, &most_bytes, nullptr);
+    const std::string line = folder.string() + "\n";
+    int status = -1;
+    if (write(requests_[1], line.data(), line.size()) != static_cast<ssize_t>(line.size()) ||
+        read(replies_[0], &status, sizeof(status)) != sizeof(status)) {
+      throw std::runtime_error("the process that runs the program is gone");
+    }
+    return status;
+  }
+
+ private:
+  [[noreturn]] void Serve() {
+    std::string folder;
+    char c = 0;
+    while (read(requests_[0], &c, 1) == 1) {
+      if (c != '\n') {
+        folder += c;
+        continue;
+      }
+      const pid_t run = fork();
+      if (run == 0) RunIn(folder);
+      int status = -1;
+      waitpid(run, &status, 0);
+      if (write(replies_[1], &status, sizeof(status)) != sizeof(status)) break;
+      folder.clear();
+    }
+    _exit(0);
+  }
+
+  [[noreturn]] void RunIn(const fs::path& folder) {
+    close(requests_[0]);
+    close(replies_[1]);
+    const auto redirect = [](const fs::path& file, int flags, int to) {
+      const int from = open(file.c_str(), flags, 0600);
+      dup2(from, to);
+      close(from);
+    };
+    redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+    redirect(folder / "out", O_WRONLY | O_CREAT, STDOUT_FILENO);
+    redirect(folder / "err", O_WRONLY | O_CREAT, STDERR_FILENO);
+    std::string arguments = ReadAll(folder / "arguments");
+    std::vector<char*> argv;
+    for (size_t i = 0; i < arguments.size(); i += std::strlen(&arguments[i]) + 1) {
+      argv.push_back(&arguments[i]);
+    }
+    const int argc = static_cast<int>(argv.size());
+    argv.push_back(nullptr);
+    const int status = RunGroundglass(argc, argv.data());
+    std::fflush(nullptr);
+    // Not exit(): some library's destructors wait for threads that a fork does not copy.
+    _exit(status);
+  }
+
+  int requests_[2] = {};
+  int replies_[2] = {};
+  pid_t server_ = -1;
+};
+
+ProgramServer* const program_server = new ProgramServer;
+const testing::Environment* const registered_server =
+    testing::AddGlobalTestEnvironment(program_server);
 
 }  // namespace
 
 ProgramRun RunProgram(const std::vector<std::string>& arguments) {
   const TemporaryFolder work;
-  std::string command = Quoted(GROUNDGLASS_PROGRAM);
-  for (const std::string& argument : arguments) command += " " + Quoted(argument);
-  command += " >" + Quoted((work / "out").string()) + " 2>" + Quoted((work / "err").string()) +
-             " </dev/null";
-  const int status = std::system(command.c_str());
+  std::string bytes = std::string("groundglass") + '\0';
+  for (const std::string& argument : arguments) bytes += argument + '\0';
+  WriteAll(work / "arguments", bytes);
+  const int status = program_server->Run(work.path());
   return {
       WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(work / "out"), ReadAll(work / "err")};
 }

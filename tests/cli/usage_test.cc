@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace groundglass {
 namespace {
@@ -21,6 +22,10 @@ void ExpectOneLineError(const ProgramRun& run, const std::string& part) {
   EXPECT_THAT(run.err, StartsWith("groundglass: "));
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   EXPECT_THAT(run.err, HasSubstr(part));
+}
+
+TEST(Usage, TheProgramItselfStarts) {
+  EXPECT_EQ(std::system(GROUNDGLASS_PROGRAM " --version > /dev/null"), 0);
 }
 
 TEST(Usage, HelpAndVersionAreNoErrors) {
