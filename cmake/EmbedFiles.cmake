@@ -21,4 +21,11 @@ function(groundglass_embed source)
             -D "FILES=${EMBED_FILES}" -P ${script}
     DEPENDS ${files} ${script}
     VERBATIM)
+  # For what reads the sources without building: cmake --build ... --target embedded_files.
+  if(NOT TARGET embedded_files)
+    add_custom_target(embedded_files)
+  endif()
+  string(MAKE_C_IDENTIFIER embedded_${source} target)
+  add_custom_target(${target} DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/${source})
+  add_dependencies(embedded_files ${target})
 endfunction()
