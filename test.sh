@@ -64,8 +64,9 @@ if [[ $preset == tidy ]]; then
   cmake --log-level=WARNING --preset tidy
   cmake --build --preset tidy --target embedded_files
   # Several sources at a time, as they are compiled: most of the work is reading what they include.
-  grep -o '"file": "[^"]*"' build/tidy/compile_commands.json | cut -d'"' -f4 | grep -v cmake_pch | sort -u |
-    xargs -P "$(nproc)" -n 1 clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option -p build/tidy
+  grep -o '"file": "[^"]*"' build/tidy/compile_commands.json | cut -d'"' -f4 |
+    grep -v cmake_pch | sort -u |
+    xargs -P "$(nproc)" -n 1 clang-tidy --quiet -p build/tidy
   echo "clang-tidy found nothing."
   exit 0
 fi

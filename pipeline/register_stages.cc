@@ -114,7 +114,7 @@ RegisteredScene EnsureRegistered(const Scene& scene,
     with_folder.colmap.folder = out / kColmapStage;
     stages.Begin(kColmapStage, "", {kColmapDatabase});
   }
-  const RegisteredScene registered =
+  RegisteredScene registered =
       RegisterScene(scene, lens, with_folder, observer.Begin(kRegisterStage));
   WriteRegistrationOutput(scene, registered, out);
   if (options.use_colmap) stages.Finish(kColmapStage);

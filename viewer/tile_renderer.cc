@@ -84,7 +84,7 @@ void DrawTriangle(const ScreenCorner& a,
       const Eigen::Array3f code = of_a * a.code + of_b * b.code + of_c * c.code;
       for (int channel = 0; channel < 3; ++channel) {
         codes.At(x, y)[channel] =
-            static_cast<uint8_t>(255 * std::clamp(code[channel], 0.0f, 1.0f) + 0.5f);
+            static_cast<uint8_t>(std::lround(255 * std::clamp(code[channel], 0.0f, 1.0f)));
       }
     }
   }
