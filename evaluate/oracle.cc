@@ -43,8 +43,10 @@ class Tracer {
 
   // Nothing where the sample shows no face's front.
   std::optional<SeenPlace> Trace(const Camera& camera, int x, int y, int sample) const {
-    const Eigen::Vector2d px(x + (sample % kSamplesPerSide + 0.5) / kSamplesPerSide,
-                             y + (sample / kSamplesPerSide + 0.5) / kSamplesPerSide);
+    const int column = sample % kSamplesPerSide;
+    const int row = sample / kSamplesPerSide;
+    const Eigen::Vector2d px(x + (column + 0.5) / kSamplesPerSide,
+                             y + (row + 0.5) / kSamplesPerSide);
     const Eigen::Vector3d position = camera.PositionInWorld();
     const Eigen::Vector3d direction = UnprojectToWorld(camera, px);
     const auto hit = visibility_.FirstHit(position, direction);

@@ -94,10 +94,11 @@ FaceSums CompareChart(const TexturedModel& model,
       };
       if (!IsFromPhotograph(page, texel_at(0.5, 0.5))) continue;
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (int i = 0; i < kSamplesAcross * kSamplesAcross; ++i) {
-        sum += LightAt(page.srgb8,
-                       texel_at((i % kSamplesAcross + 0.5) / kSamplesAcross,
-                                (i / kSamplesAcross + 0.5) / kSamplesAcross));
+      for (int j = 0; j < kSamplesAcross; ++j) {
+        for (int i = 0; i < kSamplesAcross; ++i) {
+          sum +=
+              LightAt(page.srgb8, texel_at((i + 0.5) / kSamplesAcross, (j + 0.5) / kSamplesAcross));
+        }
       }
       const float* radiance = truth.radiance.At(x, y);
       sums.Add({Levels(radiance[0]), Levels(radiance[1]), Levels(radiance[2])},
