@@ -234,6 +234,10 @@ XmlElement ReadXml(const std::filesystem::path& file) {
   return XmlParser(file, text).Parse();
 }
 
+std::string XmlPlace(const std::filesystem::path& file, const XmlElement& element) {
+  return file.string() + ":" + std::to_string(element.line);
+}
+
 std::vector<double> ReadXmlNumbers(const std::filesystem::path& file,
                                    const XmlElement& element,
                                    std::string_view text) {

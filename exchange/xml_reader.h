@@ -32,6 +32,9 @@ struct XmlElement {
 // elements nested more than 200 deep.
 XmlElement ReadXml(const std::filesystem::path& file);
 
+// "FILE:LINE", for messages.
+std::string XmlPlace(const std::filesystem::path& file, const XmlElement& element);
+
 // Numbers parted by blanks. Throws Error naming file and line for a word that is none.
 std::vector<double> ReadXmlNumbers(const std::filesystem::path& file,
                                    const XmlElement& element,

@@ -42,9 +42,10 @@ Camera ThereAndBack(const CameraFormat& format, const Camera& camera) {
       format.is_folder ? folder.path() : folder / ("cameras" + std::string(format.ending));
   const std::vector<FileToWrite> files = format.format(SceneOf(camera), out);
   WriteFilesAtomically(files);
-  const std::vector<NamedCamera> read = format.read(files.at(0).file);
+  const std::vector<ForeignCamera> read = format.read(files.at(0).file);
   EXPECT_EQ(read.size(), 1u);
-  return read.at(0).camera;
+  EXPECT_EQ(read.at(0).fault, "");
+  return read.at(0).named.camera;
 }
 
 TEST(CameraFormats, ThoseThatAreReadGiveTheCameraBack) {
@@ -93,7 +94,7 @@ TEST(Nerfstudio, WhatItsImporterTurnedTheWorldByIsUndone) {
   }
   const TemporaryFolder folder;
   const auto file = folder.Write("transforms.json", json.dump());
-  EXPECT_LT(LargestMiss(camera, ReadNerfstudio(file)[0].camera), kSamePx);
+  EXPECT_LT(LargestMiss(camera, ReadNerfstudio(file)[0].named.camera), kSamePx);
 }
 
 TEST(Fspy, ThePrincipalPointIsOnAPlaneWithYUp) {
@@ -291,17 +292,21 @@ TEST(ColmapBinary, ColmapItselfGivesTheTextBack) {
 
 TEST(CameraFormats, DamagedFilesAreErrorsWithTheirPlace) {
   const TemporaryFolder folder;
-  EXPECT_THAT(ThrownMessage([&] { ReadNerfstudio(folder.Write("a.json", "{\"frames\": [{}]}")); }),
-              HasSubstr("a.json: is not as nerfstudio writes transforms.json"));
-  EXPECT_THAT(ThrownMessage([&] { ReadFspy(folder.Write("a.fspy", "fspy")); }),
-              HasSubstr("does not begin with fspy"));
-  EXPECT_THAT(ThrownMessage([&] { ReadMeshLab(folder.Write("a.mlp", "<a>\n<MLRaster/></a>")); }),
+  const auto message = [&](const char* name, const std::string& text) {
+    return ThrownMessage([&] { ReadExchangeSource(folder.Write(name, text), {}); });
+  };
+  EXPECT_THAT(message("a.json", "{\"frames\": [{}]}"),
+              HasSubstr("a.json: frame 1: has no file_path"));
+  EXPECT_THAT(message("a.json", "{\"frames\":\n [}"),
+              HasSubstr("a.json: is not as nerfstudio writes transforms.json: line 2, column 3: "
+                        "unexpected '}'"));
+  EXPECT_THAT(message("a.json", "{}"), HasSubstr("'frames' is missing"));
+  EXPECT_THAT(message("a.fspy", "fspy"), HasSubstr("does not begin with fspy"));
+  EXPECT_THAT(message("a.mlp", "<a>\n<MLRaster/></a>"),
               HasSubstr("a.mlp:2: <MLRaster> has no <VCGCamera>"));
-  EXPECT_THAT(ThrownMessage([&] {
-                ReadMetashape(folder.Write(
-                    "a.xml", "<a>\n<camera sensor_id='7'><transform>1 2</transform></camera></a>"));
-              }),
-              HasSubstr("a.xml:2: <camera> names a sensor that is not there"));
+  EXPECT_THAT(
+      message("a.xml", "<a>\n<camera sensor_id='7'><transform>1 2</transform></camera></a>"),
+      HasSubstr("a.xml:2: <camera> names a sensor that is not there"));
   EXPECT_THAT(ThrownMessage([&] { ReadXml(folder.Write("b.xml", "<a>\n<b></a>")); }),
               HasSubstr("b.xml:2: </a> ends <b>"));
   EXPECT_THAT(ThrownMessage([&] { ReadXml(folder.Write("c.xml", "<a>&what;</a>")); }),
