@@ -6,6 +6,7 @@
 #include "exchange/rules.h"
 #include "exchange/xml_reader.h"
 #include "scene/error.h"
+#include "scene/formats/xml_text.h"
 #include "scene/text.h"
 
 namespace groundglass {

@@ -40,7 +40,4 @@ std::vector<double> ReadXmlNumbers(const std::filesystem::path& file,
                                    const XmlElement& element,
                                    std::string_view text);
 
-// Text as it stands in XML: & < > " are escaped.
-std::string XmlEscaped(std::string_view text);
-
 }  // namespace groundglass
