@@ -3,6 +3,7 @@
 #include "report/report_data.h"
 #include "report/report_text.h"
 #include "scene/error.h"
+#include "scene/formats/json_fault.h"
 #include "scene/text.h"
 
 #include <Eigen/Dense>
@@ -114,7 +115,7 @@ mustache::data NextStepsData(const ReportInput& input) {
       }
     } catch (const Json::exception& error) {
       throw Error(input.folder / "coverage.json",
-                  OneLine(std::string("is not as texturing writes it: ") + error.what()));
+                  "is not as texturing writes it: " + TellJsonFault(error.what()));
     }
   }
   for (size_t i = 0; i < std::min(input.model_errors.size(), kMostModelErrors); ++i) {
