@@ -28,6 +28,8 @@ std::vector<FileToWrite> FormatBlender(const ExchangeScene&, const std::filesyst
 std::vector<FileToWrite> FormatMvsTexturing(const ExchangeScene&, const std::filesystem::path&);
 std::vector<FileToWrite> FormatMetashape(const ExchangeScene&, const std::filesystem::path&);
 std::vector<FileToWrite> FormatRealityCapture(const ExchangeScene&, const std::filesystem::path&);
+std::vector<FileToWrite> FormatRealityCaptureCsv(const ExchangeScene&,
+                                                 const std::filesystem::path&);
 std::vector<FileToWrite> FormatKml(const ExchangeScene&, const std::filesystem::path&);
 std::vector<FileToWrite> FormatGeoJson(const ExchangeScene&, const std::filesystem::path&);
 std::vector<FileToWrite> FormatSidecars(const ExchangeScene&, const std::filesystem::path&);

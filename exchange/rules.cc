@@ -65,6 +65,20 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
   return Eigen::Quaterniond(unscaled).normalized().toRotationMatrix();
 }
 
+HeadingPitchRoll HeadingPitchRollOf(const Camera& camera) {
+  const Eigen::Matrix3d r = WorldFromGlCam(camera).topLeftCorner<3, 3>();
+  const double level = std::hypot(r(2, 0), r(2, 2));
+  HeadingPitchRoll angles;
+  angles.pitch_deg = DegreesFromRadians(std::atan2(r(2, 1), level));
+  if (level > 1e-9) {
+    angles.heading_deg = DegreesFromRadians(std::atan2(r(0, 1), r(1, 1)));
+    angles.roll_deg = DegreesFromRadians(std::atan2(-r(2, 0), r(2, 2)));
+  } else {
+    angles.heading_deg = -DegreesFromRadians(std::atan2(r(1, 0), r(0, 0)));
+  }
+  return angles;
+}
+
 void SetSize(double width_px, double height_px, Camera& camera) {
   const std::string fault = FindSizeFault(width_px, height_px);
   if (!fault.empty()) throw Error(fault);

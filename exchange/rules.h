@@ -24,6 +24,16 @@ void SetPoseFromGlCam(const Eigen::Matrix4d& world_from_gl_cam, Camera& camera);
 // directions are not. Throws Error for one that mirrors, or that changes angles.
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix);
 
+// The angles that RealityCapture turns a camera by, degrees: with its axes as OpenGL's, camera to
+// world is Rz(-heading) Rx(pitch) Ry(roll); pitch is 90 for a level view, from -90 to 90. There,
+// where heading and roll are one, roll is 0.
+struct HeadingPitchRoll {
+  double heading_deg = 0;
+  double pitch_deg = 0;
+  double roll_deg = 0;
+};
+HeadingPitchRoll HeadingPitchRollOf(const Camera& camera);
+
 // Sets the picture's size. Throws Error where it cannot be one (scene/camera_check.h).
 void SetSize(double width_px, double height_px, Camera& camera);
 

@@ -246,6 +246,54 @@ TEST(RealityCapture, ACentredPictureHasOneReadingOnly) {
   }
 }
 
+Eigen::Matrix3d Turn(const Eigen::Vector3d& axis, double degrees) {
+  return Eigen::AngleAxisd(RadiansFromDegrees(degrees), axis).toRotationMatrix();
+}
+
+TEST(RealityCaptureCsv, ItsTableGivesThePixelOfACentredPicture) {
+  // Off the middle, with oblong pixels and a lens: what is written is the picture made anew. Level,
+  // where heading and roll are one, too.
+  Camera level = OffCentreCamera();
+  level.cam_from_world.rotation << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  for (const Camera& given : {LensCamera(), TurnedCamera(OffCentreCamera(), 1), level}) {
+    const Camera camera = PreparedCamera(given, {true, true, true});
+    std::istringstream text(FormatRealityCaptureCsv(SceneOf(camera), "/t")[0].bytes);
+    std::string line;
+    std::getline(text, line);
+    EXPECT_EQ(line, "#name,x,y,alt,heading,pitch,roll,f,px,py,k1,k2,k3,k4,t1,t2");
+    std::getline(text, line, ',');
+    EXPECT_EQ(line, "s3.jpg");
+    std::vector<double> v;
+    while (std::getline(text, line, ',')) v.push_back(std::stod(line));
+    ASSERT_EQ(v.size(), 15u);
+    const Eigen::Matrix3d world_from_gl = Turn(Eigen::Vector3d::UnitZ(), -v[3]) *
+                                          Turn(Eigen::Vector3d::UnitX(), v[4]) *
+                                          Turn(Eigen::Vector3d::UnitY(), v[5]);
+    const double focal = v[6] / 36 * std::max(camera.width_px, camera.height_px);
+    for (const Eigen::Vector3d& place : PlacesBefore(camera)) {
+      const Eigen::Vector3d in_gl =
+          world_from_gl.transpose() * (place - Eigen::Vector3d(v[0], v[1], v[2]));
+      const Eigen::Vector2d pixel(camera.width_px / 2.0 + focal * in_gl.x() / -in_gl.z(),
+                                  camera.height_px / 2.0 - focal * in_gl.y() / -in_gl.z());
+      EXPECT_LT((pixel - *Project(camera, place)).norm(), kSamePx);
+    }
+    for (size_t i = 7; i < 15; ++i) EXPECT_EQ(v[i], 0);
+  }
+}
+
+TEST(RealityCaptureCsv, AnExportOfItsOwnHasTheseAngles) {
+  // One camera as its XMP and its table had it (its maker's forum, thread 710449).
+  Camera camera = OffCentreCamera();
+  Eigen::Matrix3d& r = camera.cam_from_world.rotation;
+  r.row(0) << 0.982594073038806, 0.185426733553445, -0.0112166890261935;
+  r.row(1) << -0.032113633044729, 0.11008102707942, -0.993403685341366;
+  r.row(2) = r.row(0).cross(r.row(1));
+  const HeadingPitchRoll angles = HeadingPitchRollOf(camera);
+  EXPECT_NEAR(angles.heading_deg, 163.736597399311, 1e-9);
+  EXPECT_NEAR(angles.pitch_deg, 83.4154313461628, 1e-9);
+  EXPECT_NEAR(angles.roll_deg, 174.386496244756, 1e-9);
+}
+
 TEST(ColmapBinary, IsWhatTheTextModelSays) {
   const TemporaryFolder folder;
   ExchangeScene scene = SceneOf(LensCamera());
