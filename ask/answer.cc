@@ -3,6 +3,7 @@
 #include "ask/answer.h"
 
 #include "scene/error.h"
+#include "scene/formats/csv.h"
 #include "scene/text.h"
 
 #include <nlohmann/json.hpp>
@@ -79,13 +80,6 @@ Json JsonOfPlace(const Survey& survey, const Place& place, const std::vector<Sig
     json["photographs"].push_back(JsonOfSighting(survey, sighting));
   }
   return json;
-}
-
-std::string CsvField(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::string CsvOfPlace(const Survey& survey, size_t index, const Place& place) {

@@ -319,9 +319,11 @@ SlideFrame FindSlideFrame(const Image8& srgb_grey, const FrameOptions& options) 
     frame.sigma_px = std::max(frame.sigma_px, side->sigma_px);
   }
   if (num_seen < 3) {
-    frame.reason = num_seen == 0 ? "no even border surrounds the picture"
-                                 : "only " + std::to_string(num_seen) +
-                                       " sides of a border are there; three are needed";
+    frame.reason = num_seen == 0
+                       ? "no even border surrounds the picture"
+                       : "only " + std::to_string(num_seen) +
+                             (num_seen == 1 ? " side of a border is" : " sides of a border are") +
+                             " there; three are needed";
     return frame;
   }
   if (!FindTurn(sides, options, frame)) return frame;

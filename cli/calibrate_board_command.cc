@@ -3,6 +3,7 @@
 #include "calibrate/calibrate_board.h"
 #include "cli/calibrate_parts.h"
 #include "cli/json_output.h"
+#include "cli/printed_zero.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
@@ -95,10 +96,13 @@ void PrintResult(const BoardResult& result) {
   std::printf("%d corners, %.3f px\n", result.num_corners, result.rms_px);
   std::printf("v        %10.4f +- %.4f degrees\n", lens.view_angle_deg, lens.sigma_view_angle_deg);
   std::printf("a        %10.5f +- %.5f\n", lens.aspect, lens.sigma_aspect);
-  std::printf("shift_x  %10.5f +- %.5f of the width\n", lens.shift_x, lens.sigma_shift_x);
-  std::printf("shift_y  %10.5f +- %.5f of the width\n", lens.shift_y, lens.sigma_shift_y);
-  std::printf("k1       %10.5f +- %.5f\n", lens.k1, lens.sigma_k1);
-  if (lens.sigma_k2 > 0) std::printf("k2       %10.5f +- %.5f\n", lens.k2, lens.sigma_k2);
+  std::printf(
+      "shift_x  %10.5f +- %.5f of the width\n", ZeroIfRounded(lens.shift_x, 5), lens.sigma_shift_x);
+  std::printf(
+      "shift_y  %10.5f +- %.5f of the width\n", ZeroIfRounded(lens.shift_y, 5), lens.sigma_shift_y);
+  std::printf("k1       %10.5f +- %.5f\n", ZeroIfRounded(lens.k1, 5), lens.sigma_k1);
+  if (lens.sigma_k2 > 0)
+    std::printf("k2       %10.5f +- %.5f\n", ZeroIfRounded(lens.k2, 5), lens.sigma_k2);
 }
 
 int CalibrateFromPhotographs(const BoardArguments& arguments) {

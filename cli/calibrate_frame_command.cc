@@ -4,6 +4,7 @@
 #include "cli/calibrate_parts.h"
 #include "cli/calibration_scene.h"
 #include "cli/json_output.h"
+#include "cli/option_range.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/image_paths.h"
@@ -196,7 +197,7 @@ void AddCalibrateFrame(CLI::App* calibrate, int& exit_status) {
       ->add_option("--aspect",
                    arguments->options.aspect,
                    "width / height of the openings, where a side lies outside of the scan")
-      ->check(CLI::PositiveNumber);
+      ->check(Above(0));
   AddExample(command, "groundglass calibrate frame hall     # hall/scans/ into hall/images/");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->calibration.common,

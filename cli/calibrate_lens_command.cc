@@ -30,13 +30,6 @@ struct LensFinding {
   std::vector<std::string> unused;  // what cannot be meant or used, and why
 };
 
-void AddViewAngle(const MetadataLens& lens, const ImageSize& size, KnownKeys& keys) {
-  const double aspect = static_cast<double>(size.width) / size.height;
-  AddKnown(keys, "a", aspect);
-  AddKnown(keys, "v", *lens.view_angle_deg, lens.how);
-  AddKnown(keys, "sigma_v", lens.sigma_deg);
-}
-
 LensFinding FindLens(const CalibrationPhotograph& photograph,
                      const std::optional<PolygonModel>& model,
                      const LensArguments& arguments) {
@@ -46,7 +39,8 @@ LensFinding FindLens(const CalibrationPhotograph& photograph,
       FindPhotographPlace(metadata, model.value_or(PolygonModel()), arguments.place);
   LensFinding finding{place.keys, lens.how, metadata.faults};
   finding.unused.insert(finding.unused.end(), place.faults.begin(), place.faults.end());
-  if (lens.view_angle_deg) AddViewAngle(lens, metadata.size, finding.keys);
+  const KnownKeys keys = KeysOfMetadata(lens, metadata.size);
+  finding.keys.insert(finding.keys.end(), keys.begin(), keys.end());
   return finding;
 }
 

@@ -4,6 +4,7 @@
 #include "cli/calibrate_parts.h"
 #include "cli/calibration_scene.h"
 #include "cli/json_output.h"
+#include "cli/option_range.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/text.h"
@@ -110,7 +111,7 @@ void AddCalibrateLines(CLI::App* calibrate, int& exit_status) {
                    arguments->options.aspect,
                    "width / height of the whole picture, if its pixels are not square and no tag "
                    "says it")
-      ->check(CLI::PositiveNumber);
+      ->check(Above(0));
   AddExample(command, "groundglass calibrate lines hall");
   command->callback([arguments, &exit_status] {
     exit_status = RunWithThreads(arguments->calibration.common,

@@ -3,6 +3,7 @@
 #include "cli/check_report.h"
 #include "cli/commands.h"
 #include "cli/model_arguments.h"
+#include "cli/option_range.h"
 #include "scene/advice/advice.h"
 #include "scene/error.h"
 #include "scene/feature_edges.h"
@@ -145,7 +146,7 @@ void AddCheckCommand(CLI::App& app, int& exit_status) {
           "--focal-length",
           [raw = arguments.get()](double millimetres) { raw->focal_length_mm = millimetres; },
           "of the templates' lens, mm as for a 35 mm frame: fills in the view angle")
-      ->check(CLI::PositiveNumber)
+      ->check(Above(0))
       ->needs(with_templates);
   AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);

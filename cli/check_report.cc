@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "cli/check_report.h"
 
+#include "cli/printed_zero.h"
 #include "scene/advice/standpoint.h"
 #include "scene/formats/text_encoding.h"
 
@@ -59,9 +60,9 @@ std::string FormatCameraTable(const Scene& scene) {
     const Standpoint& standpoint = standpoints[i];
     table += fmt::format("{}  {:9.1f} {:9.1f} {:8.1f}  {:<8} {:9.4g}  {:6.1f}  {}\n",
                          PaddedTo(width, scene.photographs[i].name),
-                         standpoint.position_in_site.x(),
-                         standpoint.position_in_site.y(),
-                         standpoint.position_in_site.z(),
+                         ZeroIfRounded(standpoint.position_in_site.x(), 1),
+                         ZeroIfRounded(standpoint.position_in_site.y(), 1),
+                         ZeroIfRounded(standpoint.position_in_site.z(), 1),
                          standpoint.bearing,
                          standpoint.distance,
                          scene.photographs[i].tag.view_angle_deg,
@@ -109,6 +110,22 @@ std::string FormatCheckReport(const CheckReport& report, const ModelArguments& a
          Count(report.NumWarnings(), "warning") + "\n";
 }
 
+namespace {
+
+// Null where no model could be read: nothing is known of its unit.
+Json ModelJson(const PolygonModel& model, const ModelArguments& arguments) {
+  if (model.faces.empty()) return nullptr;
+  const Box bounds = ComputeBounds(model);
+  const Eigen::Vector3d size = bounds.max - bounds.min;
+  return {{"unit", UnitName(model.unit)},
+          {"unit_is_assumed", model.is_unit_assumed},
+          {"size", {size.x(), size.y(), size.z()}},
+          {"metres_per_unit", MetresPerUnit(model.unit)},
+          {"tolerance", DescribeTolerance(model, arguments)}};
+}
+
+}  // namespace
+
 std::string FormatCheckReportJson(const CheckReport& report, const ModelArguments& arguments) {
   const Scene& scene = report.check.scene;
   const PolygonModel& model = scene.model;
@@ -128,13 +145,7 @@ std::string FormatCheckReportJson(const CheckReport& report, const ModelArgument
   }
   json["points"] = model.points_in_world.size();
   json["faces"] = model.faces.size();
-  const Box bounds = ComputeBounds(model);
-  const Eigen::Vector3d size = bounds.max - bounds.min;
-  json["model"] = {{"unit", UnitName(model.unit)},
-                   {"unit_is_assumed", model.is_unit_assumed},
-                   {"size", {size.x(), size.y(), size.z()}},
-                   {"metres_per_unit", MetresPerUnit(model.unit)},
-                   {"tolerance", DescribeTolerance(model, arguments)}};
+  json["model"] = ModelJson(model, arguments);
   json["photographs"] = Json::array();
   const std::vector<Standpoint> standpoints = FindStandpoints(scene);
   for (size_t i = 0; i < scene.photographs.size(); ++i) {

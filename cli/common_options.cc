@@ -20,6 +20,7 @@ void AddCommonOptions(CLI::App* command, CommonOptions& options) {
   command->add_option("--threads", options.threads, "threads to use; 0: every core")
       ->check(AtLeast(0));
   command->add_option("--seed", options.seed, "seed of everything that is drawn by chance")
+      ->check(AtLeast(0))
       ->capture_default_str();
 }
 

@@ -72,16 +72,14 @@ ConvertResult ConvertCameras(const ConvertArguments& arguments) {
 
 ConvertResult Convert(const ConvertArguments& arguments) {
   const std::filesystem::path input = arguments.input;
-  if (!arguments.format.empty() || IsCameraFile(input)) return ConvertCameras(arguments);
+  if (!arguments.format.empty() || HasExchangeCameras(input)) return ConvertCameras(arguments);
   if (EndsIn(arguments.output, ".city.json")) return ConvertToCityJson(arguments);
   if (EndsIn(arguments.input, ".gml")) return ConvertFromCityGml(arguments);
   if (std::filesystem::is_directory(input)) {
     if (FindColmapModel(input)) {
       return ConvertColmapToViews(input, arguments.output, arguments.lookat_distance);
     }
-    const std::filesystem::path images =
-        arguments.images.empty() ? input / "../images" : std::filesystem::path(arguments.images);
-    return ConvertViewsToColmap(input, arguments.output, images);
+    return ConvertViewsToColmap(input, arguments.output, arguments.images);
   }
   return ConvertModel(
       input, arguments.output, arguments.model_arguments.Options(), arguments.output_unit);

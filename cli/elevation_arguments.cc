@@ -11,6 +11,7 @@
 #include "viewer/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -153,28 +154,48 @@ void Print(const Drawing& drawing, const WrittenDrawing& written) {
   }
 }
 
-}  // namespace
+constexpr const char* kToScale = "To scale";
 
-void AddElevationOptions(CLI::App* command, ElevationArguments& arguments) {
-  const std::string group = "To scale";
+// A number that stays unset where the option is not given.
+void AddDepthOption(CLI::App* command,
+                    const std::string& name,
+                    const std::string& description,
+                    std::optional<double>& depth) {
+  command
+      ->add_option_function<double>(
+          name, [&depth](double value) { depth = value; }, description)
+      ->group(kToScale);
+}
+
+void AddWhatIsDrawn(CLI::App* command, ElevationArguments& arguments) {
   command
       ->add_option("--elevation",
                    arguments.elevation,
                    "square to these faces (names or numbers, with commas between), to the side "
                    "that faces north, east, ...; or 'all' of the model's sides")
-      ->group(group);
+      ->group(kToScale);
   command
       ->add_option("--section",
                    arguments.section,
                    "what is behind an upright plane, x,y,x,y (site, left to right as it is seen), "
                    "or below a level one, z=height")
-      ->group(group);
+      ->group(kToScale);
   command
       ->add_option("--developed",
                    arguments.developed,
                    "the fronts of a street laid out flat: faces from left to right")
       ->delimiter(',')
-      ->group(group);
+      ->group(kToScale);
+  command->add_flag("--crop", arguments.drawing.is_cropped, "no more than the named faces")
+      ->group(kToScale);
+  AddDepthOption(command,
+                 "--before",
+                 "how far before its plane things are drawn, model's unit; else all",
+                 arguments.drawing.before);
+  AddDepthOption(command, "--behind", "and how far behind it", arguments.drawing.behind);
+}
+
+void AddScaleAndFiles(CLI::App* command, ElevationArguments& arguments) {
   command
       ->add_option_function<std::string>(
           "--scale",
@@ -184,11 +205,11 @@ void AddElevationOptions(CLI::App* command, ElevationArguments& arguments) {
             arguments.write.scale = *scale;
           },
           "1:50 if not given")
-      ->group(group);
+      ->group(kToScale);
   command->add_option("--dpi", arguments.write.dpi, "pixels an inch on paper")
       ->check(FromTo(10, 2400))
       ->capture_default_str()
-      ->group(group);
+      ->group(kToScale);
   command
       ->add_option("--also",
                    arguments.also,
@@ -196,38 +217,55 @@ void AddElevationOptions(CLI::App* command, ElevationArguments& arguments) {
                    "standard deviation and height of each pixel)")
       ->check(CLI::IsMember({"tif", "pdf", "svg", "dxf", "layers"}))
       ->delimiter(',')
-      ->group(group);
-  command->add_flag("--crop", arguments.drawing.is_cropped, "no more than the named faces")
-      ->group(group);
-  command
-      ->add_option_function<double>(
-          "--before",
-          [&arguments](double value) { arguments.drawing.before = value; },
-          "how far before its plane things are drawn, model's unit; else all")
-      ->group(group);
-  command
-      ->add_option_function<double>(
-          "--behind",
-          [&arguments](double value) { arguments.drawing.behind = value; },
-          "and how far behind it")
-      ->group(group);
+      ->group(kToScale);
+}
+
+void AddSheetOptions(CLI::App* command, ElevationArguments& arguments) {
   command->add_option("--margin", arguments.margin_mm, "around the drawing, mm on paper")
       ->check(FromTo(0, 1000))
       ->capture_default_str()
-      ->group(group);
-  command->add_option("--title", arguments.write.title, "of the PDF")->group(group);
+      ->group(kToScale);
+  command->add_option("--title", arguments.write.title, "of the PDF")->group(kToScale);
   command->add_option("--note", arguments.write.note, "who drew it, when: a line of the PDF")
-      ->group(group);
+      ->group(kToScale);
   command
       ->add_flag("!--no-title-block",
                  arguments.write.has_title_block,
                  "the PDF without title, scale bar, north and what is said of accuracy")
-      ->group(group);
+      ->group(kToScale);
+}
+
+// Where a section shows no cut, most likely the wrong numbers were typed.
+std::optional<std::string> SectionWarning(const PolygonModel& model, const Drawing& drawing) {
+  if (!drawing.is_section || CutsModel(model, drawing)) return std::nullopt;
+  const Box bounds = ComputeBounds(model);
+  const auto from_to = [](double a, double b) {
+    return FormatNumber(std::round(10 * std::min(a, b)) / 10 + 0.0) + " to " +
+           FormatNumber(std::round(10 * std::max(a, b)) / 10 + 0.0);
+  };
+  // y is south in `site`.
+  return drawing.name + ": its plane does not meet the model, which reaches from x " +
+         from_to(bounds.min.x(), bounds.max.x()) + ", y " +
+         from_to(-bounds.min.y(), -bounds.max.y()) + ", z " +
+         from_to(bounds.min.z(), bounds.max.z()) + "; what is behind it is drawn, and nothing cut";
+}
+
+// How large a drawing would be, for --dry-run.
+nlohmann::ordered_json PlannedJson(const Drawing& drawing, const DrawingGrid& grid) {
+  return {{"drawing", drawing.name}, {"width_px", grid.width_px}, {"height_px", grid.height_px}};
+}
+
+}  // namespace
+
+void AddElevationOptions(CLI::App* command, ElevationArguments& arguments) {
+  AddWhatIsDrawn(command, arguments);
+  AddScaleAndFiles(command, arguments);
+  AddSheetOptions(command, arguments);
 }
 
 int RenderElevations(const ElevationArguments& arguments,
                      const CommonOptions& common,
-                     const TexturedModel& textured,
+                     TexturedModel textured,
                      const fs::path& folder,
                      const fs::path& out,
                      const std::vector<std::string>& warnings) {
@@ -241,10 +279,15 @@ int RenderElevations(const ElevationArguments& arguments,
     throw Error(out, "layers are made from an output folder, and not from a model alone");
   }
   const std::vector<Drawing> drawings = MakeDrawings(arguments, textured.model);
-  Renderer renderer(textured);
   DrawingSources sources;
   if (!folder.empty()) sources = ReadDrawingSources(folder, textured, with_layers);
+  PaintUnphotographed(sources, textured);
+  Renderer renderer(textured);
   std::vector<std::string> all_warnings = warnings;
+  for (const Drawing& drawing : drawings) {
+    const auto warning = SectionWarning(textured.model, drawing);
+    if (warning) all_warnings.push_back("warning: " + *warning);
+  }
   all_warnings.insert(all_warnings.end(), renderer.Warnings().begin(), renderer.Warnings().end());
   for (const std::string& warning : all_warnings) {
     std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
@@ -255,8 +298,7 @@ int RenderElevations(const ElevationArguments& arguments,
     if (common.dry_run) {
       const DrawingGrid grid =
           MakeGrid(drawing, options.PixelInMetres() / MetresPerUnit(textured.model.unit));
-      list.push_back(
-          {{"drawing", drawing.name}, {"width_px", grid.width_px}, {"height_px", grid.height_px}});
+      list.push_back(PlannedJson(drawing, grid));
       if (!common.json) {
         std::printf("would write %s: %d x %d px\n", stem.c_str(), grid.width_px, grid.height_px);
       }

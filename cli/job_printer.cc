@@ -16,7 +16,7 @@ namespace {
 
 // What is said of the stages that take long.
 constexpr std::array<std::pair<std::string_view, const char*>, 4> kTitles = {{
-    {kRegisterStage, "registering"},
+    {kRegisterStage, "registering each alone"},
     {kOverlayStage, "drawing overlays"},
     {kTextureStage, "texturing"},
     {kStillsStage, "rendering"},

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "cli/register_arguments.h"
 
+#include "cli/printed_zero.h"
 #include "cli/warnings_last.h"
 #include "register/register.h"
 #include "scene/advice/advice.h"
@@ -241,9 +242,9 @@ void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit un
     const Eigen::Vector3d offset_in_site = SiteFromWorld(error.offset_in_world);
     std::printf("%-40s off by %+.2f %+.2f %+.2f %s, +-%.2f, in %d photographs\n",
                 error.name.c_str(),
-                offset_in_site.x(),
-                offset_in_site.y(),
-                offset_in_site.z(),
+                ZeroIfRounded(offset_in_site.x(), 2),
+                ZeroIfRounded(offset_in_site.y(), 2),
+                ZeroIfRounded(offset_in_site.z(), 2),
                 unit_name.c_str(),
                 error.sigma,
                 error.num_photographs);

@@ -68,14 +68,21 @@ struct RenderArguments {
   ElevationArguments elevation;
 };
 
+// What is drawn of a folder is what a run left in it.
+fs::path ModelOfFolder(const fs::path& folder) {
+  if (fs::exists(folder / "model.glb")) return folder / "model.glb";
+  if (!fs::exists(folder / "images")) {
+    throw Error(folder, "has no model.glb; expected an output folder or a model file");
+  }
+  throw Error(folder,
+              "is a scene, and what is drawn is a model or the output of a run; give the model's "
+              "own file, or first: groundglass run " +
+                  folder.string() + " -o OUT");
+}
+
 TexturedModelReading ReadModelToRender(const RenderArguments& arguments) {
   fs::path file = arguments.model;
-  if (fs::is_directory(file)) {
-    if (!fs::exists(file / "model.glb")) {
-      throw Error(file, "has no model.glb; expected an output folder or a model file");
-    }
-    file /= "model.glb";
-  }
+  if (fs::is_directory(file)) file = ModelOfFolder(file);
   return ReadTexturedModel(file, arguments.model_arguments.Options());
 }
 
@@ -234,10 +241,10 @@ int RenderTiles(const RenderArguments& arguments) {
 }
 
 int RenderToScale(const RenderArguments& arguments) {
-  const TexturedModelReading reading = ReadModelToRender(arguments);
+  TexturedModelReading reading = ReadModelToRender(arguments);
   return RenderElevations(arguments.elevation,
                           arguments.common,
-                          reading.textured,
+                          std::move(reading.textured),
                           fs::is_directory(arguments.model) ? arguments.model : fs::path(),
                           arguments.out,
                           reading.warnings);

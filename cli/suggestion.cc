@@ -3,6 +3,7 @@
 #include "cli/suggestion.h"
 
 #include "scene/nearest_word.h"
+#include "scene/text.h"
 
 #include <algorithm>
 
@@ -33,6 +34,45 @@ std::string Meant(const std::string& word, const std::vector<std::string>& known
   return nearest ? "; did you mean " + *nearest + "?" : "";
 }
 
+// "a number", by what the option is to hold.
+std::string ExpectedOf(const CLI::App& command, const std::string& name) {
+  const CLI::Option* option = command.get_option_no_throw(name);
+  const std::string type = option ? option->get_type_name() : std::string();
+  if (type.starts_with("UINT")) return "a whole number, 0 or more";
+  return type.starts_with("INT") ? "a whole number" : "a number";
+}
+
+// The library's messages of what was typed, as a person would say them.
+std::string InPlainWords(const CLI::App& command, const std::string& message) {
+  constexpr std::string_view kNotConverted = "Could not convert: ";
+  constexpr std::string_view kNotMember = " not in {";
+  constexpr std::string_view kNone = " required ";
+  const size_t colon = message.find(": ");
+  if (message.starts_with(kNotConverted)) {
+    const size_t equals = message.find(" = ");
+    if (equals == std::string::npos) return message;
+    const std::string name = message.substr(kNotConverted.size(), equals - kNotConverted.size());
+    return name + ": expected " + ExpectedOf(command, name) + ", not " +
+           Quote(message.substr(equals + 3));
+  }
+  if (const size_t at = message.find(kNotMember);
+      at != std::string::npos && colon < at && message.ends_with("}")) {
+    const size_t list = at + kNotMember.size();
+    std::string words = message.substr(list, message.size() - 1 - list);
+    for (size_t comma = words.find(','); comma != std::string::npos;
+         comma = words.find(',', comma + 2)) {
+      words.replace(comma, 1, ", ");
+    }
+    return message.substr(0, colon + 2) + Quote(message.substr(colon + 2, at - colon - 2)) +
+           " is none of " + words;
+  }
+  if (colon != std::string::npos && message.ends_with(" missing") &&
+      message.find(kNone, colon) != std::string::npos) {
+    return message.substr(0, colon) + ": its value is missing";
+  }
+  return message;
+}
+
 }  // namespace
 
 const CLI::App& InnermostCommand(const CLI::App& app) {
@@ -46,7 +86,7 @@ std::string WithHelp(const CLI::App& command, const std::string& message) {
 
 std::string DescribeUsageError(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = InnermostCommand(app);
-  std::string message = error.what();
+  std::string message = InPlainWords(command, error.what());
   const std::vector<std::string> extras = command.remaining();
   const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
     return word.size() > 1 && word.front() == '-';

@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/model_arguments.h"
 #include "cli/option_range.h"
+#include "cli/printed_zero.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/text.h"
@@ -117,9 +118,9 @@ void PrintPlace(const Survey& survey, const Answer& answer, size_t index) {
   const Eigen::Vector3d sigma = place.Covariance().diagonal().cwiseMax(0).cwiseSqrt();
   std::printf("place %zu: x %.3f  y %.3f  z %.3f %s,  +- %.3f  %.3f  %.3f",
               index + 1,
-              point.x(),
-              point.y(),
-              point.z(),
+              ZeroIfRounded(point.x(), 3),
+              ZeroIfRounded(point.y(), 3),
+              ZeroIfRounded(point.z(), 3),
               unit.c_str(),
               sigma.x(),
               sigma.y(),
@@ -159,8 +160,8 @@ void PrintSightings(const Survey& survey, const std::vector<Sighting>& sightings
     }
     std::printf("  %-9s %8.2f %8.2f %7.2f %9.2f %6.1f  %.4f x %.4f  %s\n",
                 photograph.name.c_str(),
-                sighting.image_px->x(),
-                sighting.image_px->y(),
+                ZeroIfRounded(sighting.image_px->x(), 2),
+                ZeroIfRounded(sighting.image_px->y(), 2),
                 sighting.camera_sigma_px,
                 sighting.distance,
                 sighting.angle_deg,

@@ -5,6 +5,7 @@
 #include "datasets-synthetic/random/draw_recipe.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
+#include "scene/formats/json_fault.h"
 
 #include <nlohmann/json.hpp>
 
@@ -229,7 +230,7 @@ void ApplyRecipeJson(const std::string& text, const std::string& name, SynthReci
   try {
     json = Json::parse(text);
   } catch (const Json::exception& error) {
-    throw Error(name, std::string("not JSON: ") + error.what());
+    throw Error(name, "is not JSON: " + TellJsonFault(error.what()));
   }
   if (!json.is_object()) throw Error(name, "a recipe is a JSON object");
   if (json.empty()) return;

@@ -257,6 +257,15 @@ Drawing MakePlan(const PolygonModel& model, double height, const DrawingOptions&
   return drawing;
 }
 
+bool CutsModel(const PolygonModel& model, const Drawing& drawing) {
+  const DrawingPlane& plane = drawing.panels.front().plane;
+  return std::any_of(model.faces.begin(), model.faces.end(), [&](const Face& face) {
+    Range depth;
+    for (const int point : face.points) depth.Add(DepthBehind(plane, model.points_in_world[point]));
+    return depth.min < 0 && depth.max > 0;
+  });
+}
+
 Drawing MakeDevelopedFacade(const PolygonModel& model,
                             const std::vector<int>& faces,
                             const std::string& name,

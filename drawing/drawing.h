@@ -84,6 +84,9 @@ Drawing MakeSection(const PolygonModel& model,
 // What is left below a level plane: a plan, with north up.
 Drawing MakePlan(const PolygonModel& model, double height, const DrawingOptions& options = {});
 
+// Whether the plane of a section or a plan meets the model: else it shows what an elevation would.
+bool CutsModel(const PolygonModel& model, const Drawing& drawing);
+
 // The fronts of a street laid out flat, side by side from left to right as one walks past them:
 // each of these faces in its own plane; neighbours in one plane share a panel.
 Drawing MakeDevelopedFacade(const PolygonModel& model,

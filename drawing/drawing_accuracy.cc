@@ -57,10 +57,25 @@ std::string FormatSpread(const Spread& spread) {
   return middle + " (" + FormatLength(spread.low) + " to " + FormatLength(spread.high) + ")";
 }
 
-// The largest of what makes a place uncertain.
+double CameraSigma(const DrawingAccuracy& accuracy) {
+  return accuracy.camera_sigma_m ? accuracy.camera_sigma_m->middle : 0;
+}
+
+// What makes a place uncertain, of what anybody knows.
 double Uncertainty(const DrawingAccuracy& accuracy) {
-  return std::hypot(accuracy.camera_sigma_m ? accuracy.camera_sigma_m->middle : 0,
-                    accuracy.model_sigma_m);
+  return std::hypot(CameraSigma(accuracy),
+                    accuracy.is_model_sigma_assumed ? 0 : accuracy.model_sigma_m);
+}
+
+bool IsAssumedTooCoarse(const DrawingAccuracy& accuracy) {
+  return accuracy.is_model_sigma_assumed &&
+         std::hypot(CameraSigma(accuracy), accuracy.model_sigma_m) > accuracy.promise_m;
+}
+
+// "1:50 promises 12.5 mm"
+std::string PromiseInWords(const DrawingAccuracy& accuracy) {
+  return "1:" + FormatNumber(accuracy.scale) + " promises " +
+         FormatNumber(std::round(1e6 * accuracy.promise_m) / 1000) + " mm";
 }
 
 std::string ScaleThatFits(double length_m) {
@@ -96,6 +111,7 @@ DrawingAccuracy AssessDrawing(Renderer& renderer,
   accuracy.pixel_m = pixel_size * metres;
   accuracy.promise_m = kPromiseOnPaperMm / 1000 * scale;
   accuracy.model_sigma_m = ModelSigma(model) * metres;
+  accuracy.is_model_sigma_assumed = !model.sigma.has_value();
 
   const double longest =
       std::max(drawing.UEnd() - drawing.UStart(), drawing.v_end - drawing.v_start);
@@ -107,10 +123,10 @@ DrawingAccuracy AssessDrawing(Renderer& renderer,
     if (label > 0) ++pixels_of_face[label - 1];
   }
 
+  const DrawingLayers layers(painter, textured, sources);
   double shown = 0;
   double off_plane = 0;
-  for (const float height_m :
-       DrawingLayers(painter, textured, sources).Heights(0, height_px).values) {
+  for (const float height_m : layers.Heights(0, height_px).values) {
     if (std::isnan(height_m)) continue;
     ++shown;
     if (std::abs(height_m) > accuracy.promise_m) ++off_plane;
@@ -137,6 +153,13 @@ DrawingAccuracy AssessDrawing(Renderer& renderer,
       if (source.camera_sigma) sigmas.push_back({*source.camera_sigma * metres, weight});
       if (source.slant) slants.push_back({*source.slant, weight});
     }
+  }
+  if (!sources.provenance.empty()) {
+    const Image16 numbers = layers.Photographs(0, height_px);
+    const auto photographed =
+        numbers.values.size() - static_cast<size_t>(std::count(
+                                    numbers.values.begin(), numbers.values.end(), kProvenanceNone));
+    untextured = shown - static_cast<double>(photographed);
   }
   accuracy.untextured_share = shown > 0 ? untextured / shown : 0;
   accuracy.photograph_pixel_m = SpreadOf(footprints);
@@ -176,26 +199,41 @@ std::vector<std::string> DescribeAccuracy(const DrawingAccuracy& accuracy) {
   if (accuracy.untextured_share > 0) {
     const std::string share = Percent(accuracy.untextured_share);
     sentences.push_back(static_cast<char>(std::toupper(share[0])) + share.substr(1) +
-                        " of what is drawn is in no photograph.");
+                        " of what is drawn is in no photograph, and plain grey.");
+  }
+  if (IsAssumedTooCoarse(accuracy)) {
+    sentences.push_back("How sure the model is nobody says; the " +
+                        FormatLength(accuracy.model_sigma_m) + " are assumed, and " +
+                        PromiseInWords(accuracy) +
+                        ". If it was measured better, say so: --sigma-model, or % sigma: in it.");
   }
   return sentences;
 }
 
 std::vector<std::string> AccuracyWarnings(const DrawingAccuracy& accuracy) {
   std::vector<std::string> warnings;
-  const std::string promise = "1:" + FormatNumber(accuracy.scale) + " promises " +
-                              FormatNumber(std::round(1e6 * accuracy.promise_m) / 1000) +
-                              " mm (0.25 mm on paper)";
   const double uncertainty = Uncertainty(accuracy);
   if (uncertainty > accuracy.promise_m) {
-    warnings.push_back(promise + ", but model and cameras are sure to " +
-                       FormatLength(uncertainty) + " only; " + ScaleThatFits(uncertainty) +
-                       " fits them");
+    const bool is_of_model =
+        !accuracy.is_model_sigma_assumed && accuracy.model_sigma_m > CameraSigma(accuracy);
+    std::string which =
+        is_of_model ? "the model is sure to " + FormatLength(accuracy.model_sigma_m) + " only"
+                    : "the cameras put photographs on the model to " +
+                          FormatLength(CameraSigma(accuracy)) + " only";
+    if (is_of_model && accuracy.camera_sigma_m) {
+      which += " (the cameras to " + FormatLength(CameraSigma(accuracy)) + ")";
+    }
+    warnings.push_back(PromiseInWords(accuracy) + " (0.25 mm on paper), but " + which + "; " +
+                       ScaleThatFits(uncertainty) + " fits, or " +
+                       (is_of_model ? "measure the model better"
+                                    : "take photographs from nearer, or more that overlap"));
   }
   if (accuracy.photograph_pixel_m && accuracy.photograph_pixel_m->middle > accuracy.promise_m) {
     const double pixel_m = accuracy.photograph_pixel_m->middle;
-    warnings.push_back(promise + ", but half of the photographs' pixels are larger than " +
-                       FormatLength(pixel_m) + "; " + ScaleThatFits(pixel_m) + " fits them");
+    warnings.push_back(PromiseInWords(accuracy) +
+                       " (0.25 mm on paper), but half of the photographs' pixels are larger than " +
+                       FormatLength(pixel_m) + "; " + ScaleThatFits(pixel_m) +
+                       " fits them, or take photographs from nearer, or with a longer lens");
   }
   return warnings;
 }

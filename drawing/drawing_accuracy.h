@@ -29,12 +29,14 @@ struct DrawingAccuracy {
   std::optional<Spread> photograph_pixel_m;
   std::optional<Spread> camera_sigma_m;
   double model_sigma_m = 0;
-  double off_plane_share = 0;  // farther from the plane than the promise
+  bool is_model_sigma_assumed = false;  // neither the file nor an option says it
+  double off_plane_share = 0;           // farther from the plane than the promise
   double most_before_m = 0;
   double most_behind_m = 0;
   // How far beside its place something 1 m off the model's faces is drawn.
   std::optional<Spread> slant;
-  // Of what is shown, the faces that no photograph textures.
+  // Of what is shown, what no photograph does: by the texels, if the sources have provenance, else
+  // by faces that none textures.
   double untextured_share = 0;
 };
 
@@ -48,7 +50,9 @@ DrawingAccuracy AssessDrawing(Renderer& renderer,
 // For a person, one sentence each: pixels and sigmas, what lies off the plane, what the model
 // lacks.
 std::vector<std::string> DescribeAccuracy(const DrawingAccuracy& accuracy);
-// Where the scale promises more than there is; empty if all is well.
+// Where the scale promises more than there is, for which of model, cameras and pixels, and what
+// would mend it; empty if all is well. A model that does not say how sure it is gives a sentence
+// above, and no warning.
 std::vector<std::string> AccuracyWarnings(const DrawingAccuracy& accuracy);
 
 // "5 mm", "12.5 mm", "0.35 m".

@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,18 @@ struct DrawnLine {
   Eigen::Vector2d end_m = Eigen::Vector2d::Zero();
   Kind kind = Kind::kEdge;
 };
+
+// How each kind is drawn, in the order in which they lie over one another.
+struct LinePen {
+  DrawnLine::Kind kind;
+  const char* layer;  // of DXF, and the group's name in SVG
+  int dxf_colour;     // AutoCAD's index
+  double width_mm;    // on paper
+};
+inline constexpr std::array<LinePen, 3> kLinePens = {
+    {{DrawnLine::Kind::kEdge, "EDGES", 8, 0.13},
+     {DrawnLine::Kind::kOutline, "OUTLINE", 7, 0.25},
+     {DrawnLine::Kind::kCut, "CUT", 1, 0.5}}};
 
 // The model's edges, hidden lines removed, and the cut faces of a section; clipped to the sheet.
 // Ends are found to a tenth of pixel_size (model's unit).

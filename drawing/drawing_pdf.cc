@@ -172,12 +172,10 @@ void DrawLines(PdfPage& page,
                const Layout& layout,
                double scale) {
   const double mm_per_m = 1000 / scale;
-  for (const auto& [kind, width_mm] : {std::pair(DrawnLine::Kind::kEdge, 0.13),
-                                       std::pair(DrawnLine::Kind::kOutline, 0.25),
-                                       std::pair(DrawnLine::Kind::kCut, 0.5)}) {
-    page.SetPen(width_mm, 0);
+  for (const LinePen& pen : kLinePens) {
+    page.SetPen(pen.width_mm, 0);
     for (const DrawnLine& line : lines) {
-      if (line.kind != kind) continue;
+      if (line.kind != pen.kind) continue;
       page.DrawLine(layout.PictureLow() + (line.start_m - sheet_low_m) * mm_per_m,
                     layout.PictureLow() + (line.end_m - sheet_low_m) * mm_per_m);
     }

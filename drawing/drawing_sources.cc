@@ -6,6 +6,7 @@
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/photograph_name.h"
 #include "scene/formats/registration_io.h"
 #include "scene/registration.h"
 #include "scene/text.h"
@@ -27,6 +28,26 @@ std::vector<std::string> ReadPhotographNames(const fs::path& folder) {
   }
   std::sort(names.begin(), names.end(), NaturalLess);
   return names;
+}
+
+// The names of masks are files', which some systems write in another Unicode form than was asked
+// for.
+std::vector<PhotographName> MaskNames(const std::vector<std::string>& photographs) {
+  std::vector<PhotographName> names;
+  for (const std::string& name : photographs) names.push_back({name, ""});
+  return names;
+}
+
+// By the photographs' places in the list; those of others are left out.
+std::map<size_t, Registration> ReadRegistrationsOf(const fs::path& folder,
+                                                   const std::vector<PhotographName>& names) {
+  std::map<size_t, Registration> registrations;
+  if (!fs::exists(folder / "registration.json")) return registrations;
+  for (Registration& registration : ReadRegistrations(folder / "registration.json")) {
+    const std::optional<size_t> place = FindPhotograph(registration.name, names);
+    if (place) registrations[*place] = std::move(registration);
+  }
+  return registrations;
 }
 
 std::vector<Image16> ReadProvenance(const fs::path& folder,
@@ -75,34 +96,26 @@ const DrawnSource* DrawingSources::Find(int face, int photograph) const {
 
 DrawingSources ReadDrawingSources(const fs::path& folder,
                                   const TexturedModel& textured,
-                                  bool with_provenance) {
+                                  bool needs_provenance) {
   const PolygonModel& model = textured.model;
   DrawingSources sources;
   sources.photographs = ReadPhotographNames(folder);
   sources.faces.resize(model.faces.size());
-  std::map<std::string, int> place_of_name;
-  for (size_t i = 0; i < sources.photographs.size(); ++i) {
-    place_of_name[sources.photographs[i]] = static_cast<int>(i);
-  }
-  std::map<std::string, Registration> registrations;
-  if (fs::exists(folder / "registration.json")) {
-    for (Registration& registration : ReadRegistrations(folder / "registration.json")) {
-      registrations[registration.name] = std::move(registration);
-    }
-  }
+  const std::vector<PhotographName> names = MaskNames(sources.photographs);
+  const std::map<size_t, Registration> registrations = ReadRegistrationsOf(folder, names);
   const std::optional<Coverage> coverage = ReadCoverage(folder / "coverage.json");
   for (const FaceCoverage& covered : coverage ? coverage->faces : std::vector<FaceCoverage>()) {
     const std::optional<int> face = FindFaceByNumber(model, covered.number);
     if (!face) continue;
     const Eigen::Vector3d normal = ComputeFacePlane(model, *face).normal_in_world;
     for (const FaceCoverage::Source& each : covered.sources) {
-      const auto place = place_of_name.find(each.photograph);
-      if (place == place_of_name.end()) continue;
+      const std::optional<size_t> place = FindPhotograph(each.photograph, names);
+      if (!place) continue;
       DrawnSource source;
-      source.photograph = place->second;
+      source.photograph = static_cast<int>(*place);
       source.texels = static_cast<double>(each.num_texels);
       source.footprint = each.footprint;
-      const auto known = registrations.find(each.photograph);
+      const auto known = registrations.find(*place);
       if (known != registrations.end() && HasCorrection(known->second.verdict)) {
         source.camera_sigma = known->second.vertex_sigma_px * each.footprint;
         source.slant = SlantOf(
@@ -111,13 +124,29 @@ DrawingSources ReadDrawingSources(const fs::path& folder,
       sources.faces[*face].push_back(source);
     }
   }
-  if (with_provenance) {
-    if (!fs::exists(folder / "provenance_0.png")) {
-      throw Error(folder, "has no provenance_0.png, so layers cannot be drawn; run again");
-    }
+  if (fs::exists(folder / "provenance_0.png")) {
     sources.provenance = ReadProvenance(folder, textured, sources.photographs.size());
+  } else if (needs_provenance) {
+    throw Error(folder, "has no provenance_0.png, so layers cannot be drawn; run again");
   }
   return sources;
+}
+
+void PaintUnphotographed(const DrawingSources& sources, TexturedModel& textured) {
+  constexpr uint8_t kGrey = 172;
+  // Compression leaves black not quite so; what is next to a photograph's texels has their colour.
+  constexpr uint8_t kBlack = 16;
+  for (size_t i = 0; i < sources.provenance.size(); ++i) {
+    const std::vector<uint16_t>& numbers = sources.provenance[i].values;
+    std::vector<uint8_t>& colours = textured.pages[i].srgb8.values;
+    for (size_t texel = 0; texel < numbers.size(); ++texel) {
+      uint8_t* colour = &colours[3 * texel];
+      if (numbers[texel] != kProvenanceNone || *std::max_element(colour, colour + 3) > kBlack) {
+        continue;
+      }
+      std::fill(colour, colour + 3, kGrey);
+    }
+  }
 }
 
 }  // namespace groundglass

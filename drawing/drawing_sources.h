@@ -33,10 +33,15 @@ struct DrawingSources {
   const DrawnSource* Find(int face, int photograph) const;
 };
 
-// Reads coverage.json, registration.json, faces/ and, if asked for, provenance_N.png. What is not
-// there is left empty; Error for provenance that does not fit the model's pages.
+// Reads coverage.json, registration.json, faces/ and provenance_N.png. What is not there is left
+// empty; Error for provenance that does not fit the model's pages and, if it is needed, for one
+// that is not there.
 DrawingSources ReadDrawingSources(const std::filesystem::path& folder,
                                   const TexturedModel& textured,
-                                  bool with_provenance);
+                                  bool needs_provenance);
+
+// Gives texels that no photograph shows, which texturing leaves black, the grey of faces that none
+// shows: a black wall would be taken for what is there. Nothing without provenance.
+void PaintUnphotographed(const DrawingSources& sources, TexturedModel& textured);
 
 }  // namespace groundglass

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "drawing/drawing_lines.h"
+#include "scene/formats/xml_text.h"
 #include "scene/text.h"
 
 #include <array>
@@ -9,32 +10,8 @@
 namespace groundglass {
 namespace {
 
-struct LineKind {
-  DrawnLine::Kind kind;
-  const char* layer;     // of DXF, and the group's name in SVG
-  int dxf_colour;        // AutoCAD's index
-  const char* width_mm;  // on paper
-};
-constexpr std::array<LineKind, 3> kLineKinds = {{{DrawnLine::Kind::kEdge, "EDGES", 8, "0.13"},
-                                                 {DrawnLine::Kind::kOutline, "OUTLINE", 7, "0.25"},
-                                                 {DrawnLine::Kind::kCut, "CUT", 1, "0.5"}}};
-
 // To the tenth of a millimetre, which no pen draws.
 std::string Metres(double value) { return FormatNumber(std::round(value * 1e4) / 1e4 + 0.0); }
-
-std::string SvgEscaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&') {
-      escaped += "&amp;";
-    } else if (c == '<') {
-      escaped += "&lt;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
 
 // A code and its value on two lines, as DXF has it.
 std::string Group(int code, const std::string& value) {
@@ -62,8 +39,8 @@ std::string FormatSvg(const std::vector<DrawnLine>& lines, const LineSheet& shee
       Metres(sheet.width_m * mm_per_m) + "mm\" height=\"" + Metres(sheet.height_m * mm_per_m) +
       "mm\" viewBox=\"" + Metres(sheet.u_start_m) + " " + Metres(-top_m) + " " +
       Metres(sheet.width_m) + " " + Metres(sheet.height_m) + "\">\n<title>" +
-      SvgEscaped(sheet.title) + ", 1:" + FormatNumber(sheet.scale) + "</title>\n";
-  for (const LineKind& kind : kLineKinds) {
+      XmlEscaped(sheet.title) + ", 1:" + FormatNumber(sheet.scale) + "</title>\n";
+  for (const LinePen& kind : kLinePens) {
     std::string path;
     for (const DrawnLine& line : lines) {
       if (line.kind != kind.kind) continue;
@@ -73,7 +50,7 @@ std::string FormatSvg(const std::vector<DrawnLine>& lines, const LineSheet& shee
     if (path.empty()) continue;
     text += std::string("<path id=\"") + kind.layer +
             "\" fill=\"none\" stroke=\"#000\" stroke-linecap=\"round\" stroke-width=\"" +
-            FormatNumber(*ParseNumber(kind.width_mm) / mm_per_m) + "\" d=\"" + path + "\"/>\n";
+            FormatNumber(kind.width_mm / mm_per_m) + "\" d=\"" + path + "\"/>\n";
   }
   return text + "</svg>\n";
 }
@@ -90,14 +67,14 @@ std::string FormatDxf(const std::vector<DrawnLine>& lines, const LineSheet& shee
           Group(70, "1") + Group(0, "LTYPE") + Group(2, "CONTINUOUS") + Group(70, "0") +
           Group(3, "Solid line") + Group(72, "65") + Group(73, "0") + Group(40, "0") +
           Group(0, "ENDTAB") + Group(0, "TABLE") + Group(2, "LAYER") +
-          Group(70, std::to_string(kLineKinds.size() + 1));
-  for (const LineKind& kind : kLineKinds) text += DxfLayer(kind.layer, kind.dxf_colour);
+          Group(70, std::to_string(kLinePens.size() + 1));
+  for (const LinePen& kind : kLinePens) text += DxfLayer(kind.layer, kind.dxf_colour);
   text += DxfLayer("FRAME", 9) + Group(0, "ENDTAB") + Group(0, "ENDSEC");
   text += Group(0, "SECTION") + Group(2, "ENTITIES");
   const std::array<Eigen::Vector2d, 4> corners = {
       low, Eigen::Vector2d(high.x(), low.y()), high, Eigen::Vector2d(low.x(), high.y())};
   for (size_t i = 0; i < 4; ++i) text += DxfLine("FRAME", corners[i], corners[(i + 1) % 4]);
-  for (const LineKind& kind : kLineKinds) {
+  for (const LinePen& kind : kLinePens) {
     for (const DrawnLine& line : lines) {
       if (line.kind == kind.kind) text += DxfLine(kind.layer, line.start_m, line.end_m);
     }

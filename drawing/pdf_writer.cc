@@ -6,7 +6,8 @@
 #include "scene/text.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <charconv>
 #include <cstdio>
 
 namespace groundglass {
@@ -15,8 +16,17 @@ namespace {
 constexpr double kPointsPerMm = 72 / 25.4;
 constexpr double kMaxPagePoints = 14400;
 
-// Four decimals: a ten-thousandth of a millimetre.
-std::string Pdf(double value) { return FormatNumber(std::round(value * 1e4) / 1e4 + 0.0); }
+// Four decimals: a ten-thousandth of a millimetre. PDF has no exponents, which FormatNumber writes
+// of small numbers.
+std::string Pdf(double value) {
+  std::array<char, 400> digits;
+  const auto end = std::to_chars(
+      digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, 4);
+  std::string text(digits.data(), end.ptr);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
 std::string Pdf(const Eigen::Vector2d& point) { return Pdf(point.x()) + " " + Pdf(point.y()); }
 std::string Ref(int object) { return std::to_string(object) + " 0 R"; }
 
@@ -155,7 +165,7 @@ std::string PdfPage::PageBody(int content) const {
   std::string body = "<< /Type /Page /Parent " + Ref(static_cast<int>(offsets_.size()) - 1) +
                      " /MediaBox [0 0 " + Pdf(width_mm_ * kPointsPerMm / unit) + " " +
                      Pdf(height_mm_ * kPointsPerMm / unit) + "]";
-  if (unit > 1) body += " /UserUnit " + FormatNumber(unit);
+  if (unit > 1) body += " /UserUnit " + Pdf(unit);
   body += " /Contents " + Ref(content) +
           " /Resources << /Font << /F1 << /Type /Font /Subtype /Type1 /BaseFont /Helvetica "
           "/Encoding /WinAnsiEncoding >> >> /XObject <<";

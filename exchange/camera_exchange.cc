@@ -3,13 +3,11 @@
 #include "exchange/camera_exchange.h"
 
 #include "exchange/formats.h"
+#include "exchange/read_source.h"
 #include "scene/error.h"
-#include "scene/formats/convert.h"
 #include "scene/formats/given_cameras.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/image_paths.h"
-#include "scene/formats/model_io.h"
-#include "scene/formats/registration_io.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
 
@@ -20,28 +18,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool IsOutputFolder(const fs::path& folder) {
-  return fs::exists(folder / "registration.json") && fs::exists(folder / "cameras");
-}
-
-// Unit, place on Earth and the file that other programs take.
-void TakeModel(const fs::path& folder, ExchangeSource& source) {
-  for (const char* name : {"model.obj", "model.glb"}) {
-    if (!fs::exists(folder / name)) continue;
-    const PolygonModel model = ReadModel(folder / name).model;
-    source.unit = model.unit;
-    source.georeference = model.georeference;
-    source.model_file = folder / name;
-    return;
+// Who reads the folder finds more there than this program may add to.
+void RequireNoScene(const fs::path& folder) {
+  bool holds_scene = fs::exists(folder / "views") || fs::exists(folder / "tags.csv");
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    holds_scene = holds_scene || entry.path().stem() == "model";
   }
+  const bool is_scene = holds_scene && fs::exists(folder / "images");
+  if (!is_scene && !IsOutputFolder(folder)) return;
+  throw Error(folder,
+              std::string("is ") + (is_scene ? "a scene's folder" : "the output of a run") +
+                  ", where cameras would be taken for its own; give a folder of their own");
 }
 
-void TakeColmap(const ColmapFiles& files, ExchangeSource& source) {
-  const ColmapReading reading = ReadColmapImages(files);
-  source.cameras = reading.cameras;
-  source.warnings = files.warnings;
-  const std::vector<std::string> faults = TellColmapFaults(reading.faults);
-  source.warnings.insert(source.warnings.end(), faults.begin(), faults.end());
+void RequireOtherFile(const ExchangeSource& source, const fs::path& out) {
+  for (const fs::path& file : source.files) {
+    std::error_code error;
+    if (!fs::equivalent(file, out, error) || error) continue;
+    throw Error(out, "would be written over the input itself; give another name");
+  }
 }
 
 // A camera for the picture as it is read, and what a format makes of it.
@@ -145,45 +141,10 @@ std::vector<std::string> CameraFormatNames() {
 std::string DescribeCameraFormats() {
   std::string text;
   for (const CameraFormat& format : CameraFormats()) {
-    text += "  " + std::string(format.name) + std::string(16 - format.name.size(), ' ') +
+    text += "  " + std::string(format.name) + std::string(20 - format.name.size(), ' ') +
             std::string(format.makes) + (format.read ? "; read too" : "") + "\n";
   }
   return text;
-}
-
-bool IsCameraFile(const fs::path& input) {
-  return fs::is_regular_file(input) && FindCameraReader(input) != nullptr;
-}
-
-ExchangeSource ReadExchangeSource(const fs::path& input, const fs::path& images) {
-  ExchangeSource source;
-  source.images = images;
-  if (IsCameraFile(input)) {
-    source.cameras = FindCameraReader(input)->read(input);
-    // Pictures are named as seen from the file.
-    if (images.empty()) source.images = input.parent_path();
-    return source;
-  }
-  if (!fs::is_directory(input)) {
-    throw Error(input,
-                "is no folder of cameras, and none of the files with cameras that are read: "
-                "transforms.json, .fspy, .mlp, Metashape's .xml");
-  }
-  if (IsOutputFolder(input)) {
-    source.registrations = ReadRegistrations(input / "registration.json");
-    TakeColmap(*FindColmapModel(input / "cameras"), source);
-    TakeModel(input, source);
-    return source;
-  }
-  if (const auto files = FindColmapModel(input)) {
-    TakeColmap(*files, source);
-    return source;
-  }
-  if (source.images.empty()) source.images = input / "../images";
-  ViewCameras views = ReadViewCameras(input, source.images);
-  source.cameras = std::move(views.cameras);
-  source.warnings = std::move(views.warnings);
-  return source;
 }
 
 ExchangeResult WriteCamerasAs(std::string_view format_name,
@@ -197,17 +158,23 @@ ExchangeResult WriteCamerasAs(std::string_view format_name,
   if (!source.model_file.empty()) scene.model_file = fs::absolute(source.model_file);
   scene.registrations = source.registrations;
   const fs::path out_path = fs::absolute(out);
+  if (format->is_folder) RequireNoScene(out_path);
   const std::vector<std::string> names = NamesOf(source);
   CameraPreparation preparation(*format, source, out_path);
   for (size_t i = 0; i < source.cameras.size(); ++i) {
     scene.cameras.push_back(preparation.Prepare(source.cameras[i], names[i]));
   }
   if (format->format) {
-    WriteFilesAtomically(format->format(scene, out_path));
+    const std::vector<FileToWrite> files = format->format(scene, out_path);
+    for (const FileToWrite& file : files) RequireOtherFile(source, file.file);
+    WriteFilesAtomically(files);
   } else {
     std::vector<NamedCamera> cameras;
     for (const ExchangeCamera& each : scene.cameras) {
       cameras.push_back({each.image_name, each.camera});
+    }
+    for (const char* name : {"cameras.txt", "images.txt"}) {
+      RequireOtherFile(source, out_path / name);
     }
     WriteColmapModel(out_path, cameras);
   }

@@ -21,21 +21,24 @@ struct ExchangeSource {
   std::filesystem::path images;  // the folder that the names are below; empty if nobody says
   LengthUnit unit = LengthUnit::kFoot;
   std::optional<Georeference> georeference;
-  std::filesystem::path model_file;         // empty if there is none
-  std::vector<Registration> registrations;  // of an output folder
-  std::vector<std::string> warnings;
+  std::filesystem::path model_file;          // empty if there is none
+  std::vector<Registration> registrations;   // of an output folder
+  std::vector<std::filesystem::path> files;  // that the cameras were read from
+  std::vector<std::string> warnings;         // of cameras that are left out, among others
 };
 
 // The names of all formats that cameras are written in.
 std::vector<std::string> CameraFormatNames();
 // "nerfstudio: transforms.json" in lines, for a help text.
 std::string DescribeCameraFormats();
-// Whether the input is a file with cameras of another program's, by its ending.
-bool IsCameraFile(const std::filesystem::path& input);
+// Whether the input is a file with cameras of another program's, by its ending, a folder of fSpy's
+// projects, or an output folder.
+bool HasExchangeCameras(const std::filesystem::path& input);
 
 // Cameras of an output folder, a COLMAP model, a folder of view files (whose pictures' sizes come
-// from `images`), or a file of fSpy's, MeshLab's, Metashape's or nerfstudio's. images: the folder
-// of pictures; empty: view files' ../images. Throws Error.
+// from `images`), a file of fSpy's, MeshLab's, Metashape's or nerfstudio's, or a folder of fSpy's.
+// images: the folder of pictures; empty: view files' ../images. A camera that cannot be one is left
+// out with a warning. Throws Error where none is left.
 ExchangeSource ReadExchangeSource(const std::filesystem::path& input,
                                   const std::filesystem::path& images);
 

@@ -2,18 +2,11 @@
 // Part of Groundglass.
 #include "exchange/formats.h"
 #include "scene/error.h"
+#include "scene/formats/csv.h"
 #include "scene/text.h"
 
 namespace groundglass {
 namespace {
-
-// A field with a comma or a quotation mark in quotation marks (RFC 4180).
-std::string CsvField(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
-  return field + "\"";
-}
 
 std::string CorrectionRow(const Registration& registration) {
   std::string row =

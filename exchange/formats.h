@@ -3,9 +3,9 @@
 #pragma once
 
 #include "exchange/exchange_scene.h"
+#include "exchange/foreign_camera.h"
 #include "exchange/prepared_image.h"
 #include "scene/formats/atomic_file.h"
-#include "scene/formats/colmap_io.h"
 
 #include <filesystem>
 #include <string>
@@ -28,18 +28,21 @@ std::vector<FileToWrite> FormatBlender(const ExchangeScene&, const std::filesyst
 std::vector<FileToWrite> FormatMvsTexturing(const ExchangeScene&, const std::filesystem::path&);
 std::vector<FileToWrite> FormatMetashape(const ExchangeScene&, const std::filesystem::path&);
 std::vector<FileToWrite> FormatRealityCapture(const ExchangeScene&, const std::filesystem::path&);
+std::vector<FileToWrite> FormatRealityCaptureCsv(const ExchangeScene&,
+                                                 const std::filesystem::path&);
 std::vector<FileToWrite> FormatKml(const ExchangeScene&, const std::filesystem::path&);
 std::vector<FileToWrite> FormatGeoJson(const ExchangeScene&, const std::filesystem::path&);
 std::vector<FileToWrite> FormatSidecars(const ExchangeScene&, const std::filesystem::path&);
 std::vector<FileToWrite> FormatCorrections(const ExchangeScene&, const std::filesystem::path&);
 
-// Cameras of a file, in the file's own world and lengths, each named as its picture is there.
-// Error naming the file and what is wrong in it.
-using ReadCameras = std::vector<NamedCamera> (*)(const std::filesystem::path& file);
-std::vector<NamedCamera> ReadNerfstudio(const std::filesystem::path& file);
-std::vector<NamedCamera> ReadFspy(const std::filesystem::path& file);
-std::vector<NamedCamera> ReadMeshLab(const std::filesystem::path& file);
-std::vector<NamedCamera> ReadMetashape(const std::filesystem::path& file);
+// Cameras of a file, in the file's own world and lengths, each named as its picture is there; what
+// is wrong with one of them is told with it. Error naming the file and what is wrong where there is
+// no camera in it at all.
+using ReadCameras = std::vector<ForeignCamera> (*)(const std::filesystem::path& file);
+std::vector<ForeignCamera> ReadNerfstudio(const std::filesystem::path& file);
+std::vector<ForeignCamera> ReadFspy(const std::filesystem::path& file);
+std::vector<ForeignCamera> ReadMeshLab(const std::filesystem::path& file);
+std::vector<ForeignCamera> ReadMetashape(const std::filesystem::path& file);
 
 struct CameraFormat {
   std::string_view name;           // for people: --to nerfstudio

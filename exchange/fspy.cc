@@ -7,8 +7,8 @@
 #include "exchange/json_numbers.h"
 #include "exchange/rules.h"
 #include "scene/error.h"
+#include "scene/formats/json_fault.h"
 #include "scene/formats/view_io.h"
-#include "scene/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +64,37 @@ uint32_t ReadFspyWord(const std::string& bytes, size_t at) {
   return value;
 }
 
+// The project's JSON, as text.
+std::string FspyJsonText(const std::filesystem::path& file) {
+  const std::string bytes = ReadFileBytes(file);
+  if (bytes.size() < kFspyHeadBytes || !bytes.starts_with("fspy")) {
+    throw Error(file, "is no project of fSpy's: it does not begin with fspy");
+  }
+  if (ReadFspyWord(bytes, 4) != kFspyVersion) {
+    throw Error(file,
+                "is a project of fSpy's version " + std::to_string(ReadFspyWord(bytes, 4)) +
+                    ", of which nothing is known; save it as version 1");
+  }
+  const size_t json_bytes = ReadFspyWord(bytes, 8);
+  if (json_bytes > bytes.size() - kFspyHeadBytes) throw Error(file, "is cut short");
+  return bytes.substr(kFspyHeadBytes, json_bytes);
+}
+
+Camera FspyCamera(const std::filesystem::path& file, const Json& json) {
+  const Json& parameters = json.at("cameraParameters");
+  if (parameters.is_null()) throw Error(file, "holds no camera yet: fSpy has not solved it");
+  Camera camera;
+  SetSize(parameters.at("imageWidth").get<double>(),
+          parameters.at("imageHeight").get<double>(),
+          camera);
+  const double angle = parameters.at("horizontalFieldOfView").get<double>();
+  camera.focal_x_px = camera.focal_y_px = camera.width_px / (2 * std::tan(angle / 2));
+  const Json& center = parameters.at("principalPoint");
+  SetCenterOnImagePlane({center.at("x").get<double>(), center.at("y").get<double>()}, camera);
+  SetPoseFromGlCam(MatrixFromJson<4, 4>(parameters.at("cameraTransform").at("rows")), camera);
+  return camera;
+}
+
 }  // namespace
 
 std::vector<FileToWrite> FormatFspy(const ExchangeScene& scene, const std::filesystem::path& out) {
@@ -80,38 +111,14 @@ std::vector<FileToWrite> FormatFspy(const ExchangeScene& scene, const std::files
   return files;
 }
 
-std::vector<NamedCamera> ReadFspy(const std::filesystem::path& file) {
-  const std::string bytes = ReadFileBytes(file);
-  if (bytes.size() < kFspyHeadBytes || !bytes.starts_with("fspy")) {
-    throw Error(file, "is no project of fSpy's: it does not begin with fspy");
-  }
-  if (ReadFspyWord(bytes, 4) != kFspyVersion) {
-    throw Error(file,
-                "is a project of fSpy's version " + std::to_string(ReadFspyWord(bytes, 4)) +
-                    ", of which nothing is known; save it as version 1");
-  }
-  const size_t json_bytes = ReadFspyWord(bytes, 8);
-  if (json_bytes > bytes.size() - kFspyHeadBytes) throw Error(file, "is cut short");
-  try {
-    const Json json = Json::parse(bytes.substr(kFspyHeadBytes, json_bytes));
-    if (json.at("cameraParameters").is_null()) {
-      throw Error(file, "holds no camera yet: fSpy has not solved it");
+std::vector<ForeignCamera> ReadFspy(const std::filesystem::path& file) {
+  return {ReadForeignCamera(file, file.stem().string(), file.string(), [&] {
+    try {
+      return FspyCamera(file, Json::parse(FspyJsonText(file)));
+    } catch (const Json::exception& error) {
+      throw Error(file, "is not as fSpy writes a project: " + TellJsonFault(error.what()));
     }
-    const Json& parameters = json.at("cameraParameters");
-    NamedCamera named;
-    named.name = file.stem().string();
-    Camera& camera = named.camera;
-    camera.width_px = parameters.at("imageWidth").get<int>();
-    camera.height_px = parameters.at("imageHeight").get<int>();
-    const double angle = parameters.at("horizontalFieldOfView").get<double>();
-    camera.focal_x_px = camera.focal_y_px = camera.width_px / (2 * std::tan(angle / 2));
-    const Json& center = parameters.at("principalPoint");
-    SetCenterOnImagePlane({center.at("x").get<double>(), center.at("y").get<double>()}, camera);
-    SetPoseFromGlCam(MatrixFromJson<4, 4>(parameters.at("cameraTransform").at("rows")), camera);
-    return {named};
-  } catch (const Json::exception& error) {
-    throw Error(file, "is not as fSpy writes a project: " + OneLine(error.what()));
-  }
+  })};
 }
 
 }  // namespace groundglass

@@ -7,6 +7,7 @@
 #include "exchange/json_numbers.h"
 #include "exchange/rules.h"
 #include "exchange/xml_reader.h"
+#include "scene/formats/xml_text.h"
 #include "scene/text.h"
 
 #include <algorithm>

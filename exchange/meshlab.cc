@@ -6,6 +6,7 @@
 #include "exchange/rules.h"
 #include "exchange/xml_reader.h"
 #include "scene/error.h"
+#include "scene/formats/xml_text.h"
 #include "scene/text.h"
 
 namespace groundglass {
@@ -74,8 +75,7 @@ class MeshLabReader {
     const std::vector<double> center = Numbers("CenterPx", 2);
     const double focal_mm = Numbers("FocalMm", 1)[0];
     Camera camera;
-    camera.width_px = static_cast<int>(size[0]);
-    camera.height_px = static_cast<int>(size[1]);
+    SetSize(size[0], size[1], camera);
     camera.focal_x_px = focal_mm / pixel_mm[0];
     camera.focal_y_px = focal_mm / pixel_mm[1];
     SetCenterFromBelow({center[0], center[1]}, camera);
@@ -95,17 +95,23 @@ class MeshLabReader {
   const XmlElement& camera_;
 };
 
+ForeignCamera ReadRaster(const std::filesystem::path& file, const XmlElement& raster) {
+  const XmlElement* plane = raster.Child("Plane");
+  const std::string picture = plane ? plane->Attribute("fileName") : std::string();
+  const XmlElement* camera = raster.Child("VCGCamera");
+  return ReadForeignCamera(file,
+                           picture.empty() ? raster.Attribute("label") : picture,
+                           XmlPlace(file, camera ? *camera : raster),
+                           [&] {
+                             if (camera == nullptr) throw Error("<MLRaster> has no <VCGCamera>");
+                             return MeshLabReader(file, *camera).Read();
+                           });
+}
+
 void CollectRasters(const std::filesystem::path& file,
                     const XmlElement& element,
-                    std::vector<NamedCamera>& cameras) {
-  if (element.name == "MLRaster") {
-    const XmlElement* camera = element.Child("VCGCamera");
-    if (camera == nullptr) throw Error(file, element.line, "<MLRaster> has no <VCGCamera>");
-    const XmlElement* plane = element.Child("Plane");
-    const std::string picture = plane ? plane->Attribute("fileName") : std::string();
-    cameras.push_back({picture.empty() ? element.Attribute("label") : picture,
-                       MeshLabReader(file, *camera).Read()});
-  }
+                    std::vector<ForeignCamera>& cameras) {
+  if (element.name == "MLRaster") cameras.push_back(ReadRaster(file, element));
   for (const XmlElement& child : element.children) CollectRasters(file, child, cameras);
 }
 
@@ -126,8 +132,8 @@ std::vector<FileToWrite> FormatMeshLab(const ExchangeScene& scene,
   return {{out, text + " </RasterGroup>\n</MeshLabProject>\n"}};
 }
 
-std::vector<NamedCamera> ReadMeshLab(const std::filesystem::path& file) {
-  std::vector<NamedCamera> cameras;
+std::vector<ForeignCamera> ReadMeshLab(const std::filesystem::path& file) {
+  std::vector<ForeignCamera> cameras;
   CollectRasters(file, ReadXml(file), cameras);
   if (cameras.empty()) throw Error(file, "has no <MLRaster>, and so no camera");
   return cameras;

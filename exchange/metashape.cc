@@ -7,10 +7,9 @@
 #include "exchange/rules.h"
 #include "exchange/xml_reader.h"
 #include "scene/error.h"
+#include "scene/formats/xml_text.h"
 #include "scene/text.h"
 
-#include <cmath>
-#include <cstdlib>
 #include <map>
 
 namespace groundglass {
@@ -59,6 +58,10 @@ double SensorNumber(const std::filesystem::path& file,
 
 // A sensor's camera without a pose; the adjusted calibration where there is one.
 Camera ReadSensor(const std::filesystem::path& file, const XmlElement& sensor) {
+  const std::string type = sensor.Attribute("type");
+  if (!type.empty() && type != "frame") {
+    throw Error(file, sensor.line, "a sensor of type " + Quote(type) + "; expected frame");
+  }
   const XmlElement* calibration = nullptr;
   for (const XmlElement& child : sensor.children) {
     if (child.name != "calibration") continue;
@@ -69,8 +72,14 @@ Camera ReadSensor(const std::filesystem::path& file, const XmlElement& sensor) {
     throw Error(file, sensor.line, "<sensor> has no <calibration> or no <resolution>");
   }
   Camera camera;
-  camera.width_px = std::atoi(size->Attribute("width").c_str());
-  camera.height_px = std::atoi(size->Attribute("height").c_str());
+  const auto side = [&](const char* name) {
+    const std::vector<double> numbers = ReadXmlNumbers(file, *size, size->Attribute(name));
+    if (numbers.size() != 1) {
+      throw Error(file, size->line, "<resolution> has no " + std::string(name));
+    }
+    return numbers[0];
+  };
+  SetSize(side("width"), side("height"), camera);
   const auto number = [&](const char* name) { return SensorNumber(file, *calibration, name); };
   if (number("b2") != 0 || number("k4") != 0) {
     throw Error(file, calibration->line, "b2 and k4 are no part of our lens; fix them at 0");
@@ -87,19 +96,38 @@ Camera ReadSensor(const std::filesystem::path& file, const XmlElement& sensor) {
 }
 
 struct MetashapeParts {
-  std::map<std::string, Camera> sensors;  // by id
+  std::map<std::string, const XmlElement*> sensors;  // by id
   std::vector<const XmlElement*> cameras;
 };
-void CollectParts(const std::filesystem::path& file,
-                  const XmlElement& element,
-                  MetashapeParts& parts) {
+void CollectParts(const XmlElement& element, MetashapeParts& parts) {
   if (element.name == "sensor") {
-    parts.sensors[element.Attribute("id")] = ReadSensor(file, element);
+    parts.sensors[element.Attribute("id")] = &element;
     return;
   }
   // Without a transform it is not aligned.
   if (element.name == "camera" && element.Child("transform")) parts.cameras.push_back(&element);
-  for (const XmlElement& child : element.children) CollectParts(file, child, parts);
+  for (const XmlElement& child : element.children) CollectParts(child, parts);
+}
+
+Camera ReadAlignedCamera(const std::filesystem::path& file,
+                         const XmlElement& element,
+                         const MetashapeParts& parts) {
+  const auto sensor = parts.sensors.find(element.Attribute("sensor_id"));
+  if (sensor == parts.sensors.end()) throw Error("<camera> names a sensor that is not there");
+  Camera camera = ReadSensor(file, *sensor->second);
+  const XmlElement& transform = *element.Child("transform");
+  const std::vector<double> numbers = ReadXmlNumbers(file, transform, transform.text);
+  if (numbers.size() != 16) throw Error("<transform> has not 16 numbers");
+  RigidTransform world_from_cam;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      world_from_cam.rotation(row, column) = numbers[static_cast<size_t>(4 * row + column)];
+    }
+    world_from_cam.translation[row] = numbers[static_cast<size_t>(4 * row + 3)];
+  }
+  world_from_cam.rotation = NearestRotation(world_from_cam.rotation);
+  camera.cam_from_world = Inverse(world_from_cam);
+  return camera;
 }
 
 }  // namespace
@@ -119,36 +147,16 @@ std::vector<FileToWrite> FormatMetashape(const ExchangeScene& scene,
                "  </cameras>\n </chunk>\n</document>\n"}};
 }
 
-std::vector<NamedCamera> ReadMetashape(const std::filesystem::path& file) {
+std::vector<ForeignCamera> ReadMetashape(const std::filesystem::path& file) {
   const XmlElement root = ReadXml(file);
   MetashapeParts parts;
-  CollectParts(file, root, parts);
-  std::vector<NamedCamera> cameras;
+  CollectParts(root, parts);
+  std::vector<ForeignCamera> cameras;
   for (const XmlElement* element : parts.cameras) {
-    const auto sensor = parts.sensors.find(element->Attribute("sensor_id"));
-    if (sensor == parts.sensors.end()) {
-      throw Error(file, element->line, "<camera> names a sensor that is not there");
-    }
-    const XmlElement& transform = *element->Child("transform");
-    const std::vector<double> numbers = ReadXmlNumbers(file, transform, transform.text);
-    if (numbers.size() != 16) {
-      throw Error(file, transform.line, "<transform> has not 16 numbers");
-    }
-    RigidTransform world_from_cam;
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) {
-        world_from_cam.rotation(row, column) = numbers[static_cast<size_t>(4 * row + column)];
-      }
-      world_from_cam.translation[row] = numbers[static_cast<size_t>(4 * row + 3)];
-    }
-    // A chunk may have a scale of its own; directions have none.
-    world_from_cam.rotation = Eigen::Quaterniond(world_from_cam.rotation /
-                                                 std::cbrt(world_from_cam.rotation.determinant()))
-                                  .normalized()
-                                  .toRotationMatrix();
-    NamedCamera named = {element->Attribute("label"), sensor->second};
-    named.camera.cam_from_world = Inverse(world_from_cam);
-    cameras.push_back(named);
+    cameras.push_back(
+        ReadForeignCamera(file, element->Attribute("label"), XmlPlace(file, *element), [&] {
+          return ReadAlignedCamera(file, *element, parts);
+        }));
   }
   if (cameras.empty()) throw Error(file, "has no aligned <camera>; is it Metashape's?");
   return cameras;

@@ -7,8 +7,11 @@
 #include "exchange/json_numbers.h"
 #include "exchange/rules.h"
 #include "scene/error.h"
+#include "scene/formats/json_fault.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
+
+#include <cmath>
 
 namespace groundglass {
 namespace {
@@ -42,13 +45,44 @@ double NerfNumber(const Json& frame, const Json& file, const char* key, double o
   return frame.value(key, file.value(key, otherwise));
 }
 
-NamedCamera NerfCamera(const Json& frame, const Json& file) {
-  NamedCamera named;
-  named.name = frame.at("file_path").get<std::string>();
-  Camera& camera = named.camera;
-  camera.width_px = static_cast<int>(NerfNumber(frame, file, "w", 0));
-  camera.height_px = static_cast<int>(NerfNumber(frame, file, "h", 0));
-  camera.focal_x_px = NerfNumber(frame, file, "fl_x", 0);
+double RequiredNerfNumber(const Json& frame, const Json& file, const char* key) {
+  return (frame.contains(key) ? frame : file).at(key).get<double>();
+}
+
+// Its lenses of other kinds have the same keys with another meaning.
+void RequirePinhole(const Json& frame, const Json& file) {
+  const std::string model =
+      frame.value("camera_model", file.value("camera_model", std::string("OPENCV")));
+  for (const char* known : {"OPENCV", "PINHOLE", "SIMPLE_PINHOLE", "RADIAL", "SIMPLE_RADIAL"}) {
+    if (model == known) return;
+  }
+  throw Error("camera_model is " + Quote(model) + "; of nerfstudio's, OPENCV and PINHOLE are read");
+}
+
+// What its importer turned, moved and then scaled the world by before it wrote the file is undone.
+Eigen::Matrix4d NerfPose(const Json& frame, const Json& file) {
+  Eigen::Matrix4d world_from_gl_cam = MatrixFromJson<4, 4>(frame.at("transform_matrix"));
+  const double scale = file.value("applied_scale", 1.0);
+  if (!(scale > 0 && std::isfinite(scale))) {
+    throw Error("applied_scale must be above 0, not " + FormatNumber(scale));
+  }
+  world_from_gl_cam.topRightCorner<3, 1>() /= scale;
+  if (file.contains("applied_transform")) {
+    Eigen::Matrix4d applied = Eigen::Matrix4d::Identity();
+    applied.topRows<3>() = MatrixFromJson<3, 4>(file.at("applied_transform"));
+    world_from_gl_cam = applied.inverse() * world_from_gl_cam;
+  }
+  return world_from_gl_cam;
+}
+
+Camera NerfCamera(const Json& frame, const Json& file) {
+  RequirePinhole(frame, file);
+  if (NerfNumber(frame, file, "k4", 0) != 0) {
+    throw Error("k4 is no part of our lens; undistort the pictures first");
+  }
+  Camera camera;
+  SetSize(RequiredNerfNumber(frame, file, "w"), RequiredNerfNumber(frame, file, "h"), camera);
+  camera.focal_x_px = RequiredNerfNumber(frame, file, "fl_x");
   camera.focal_y_px = NerfNumber(frame, file, "fl_y", camera.focal_x_px);
   camera.center_x_px = NerfNumber(frame, file, "cx", camera.width_px / 2.0);
   camera.center_y_px = NerfNumber(frame, file, "cy", camera.height_px / 2.0);
@@ -57,15 +91,31 @@ NamedCamera NerfCamera(const Json& frame, const Json& file) {
   camera.k3 = NerfNumber(frame, file, "k3", 0);
   camera.p1 = NerfNumber(frame, file, "p1", 0);
   camera.p2 = NerfNumber(frame, file, "p2", 0);
-  Eigen::Matrix4d world_from_gl_cam = MatrixFromJson<4, 4>(frame.at("transform_matrix"));
-  if (file.contains("applied_transform")) {
-    // What its importer turned the world by before it wrote the file.
-    Eigen::Matrix4d applied = Eigen::Matrix4d::Identity();
-    applied.topRows<3>() = MatrixFromJson<3, 4>(file.at("applied_transform"));
-    world_from_gl_cam = applied.inverse() * world_from_gl_cam;
-  }
-  SetPoseFromGlCam(world_from_gl_cam, camera);
-  return named;
+  SetPoseFromGlCam(NerfPose(frame, file), camera);
+  return camera;
+}
+
+// "images/a.jpg"; empty if the frame does not say.
+std::string NerfPicture(const Json& frame) {
+  const auto path = frame.is_object() ? frame.find("file_path") : frame.end();
+  return path != frame.end() && path->is_string() ? path->get<std::string>() : std::string();
+}
+
+ForeignCamera ReadNerfFrame(const std::filesystem::path& file,
+                            const Json& json,
+                            const Json& frame,
+                            size_t index) {
+  const std::string name = NerfPicture(frame);
+  const std::string place = file.string() + ": frame " + std::to_string(index + 1) +
+                            (name.empty() ? "" : " (" + name + ")");
+  return ReadForeignCamera(file, name, place, [&] {
+    if (name.empty()) throw Error("has no file_path, and so no picture");
+    try {
+      return NerfCamera(frame, json);
+    } catch (const Json::exception& error) {
+      throw Error(TellJsonFault(error.what()));
+    }
+  });
 }
 
 }  // namespace
@@ -82,15 +132,19 @@ std::vector<FileToWrite> FormatNerfstudio(const ExchangeScene& scene,
   return {{out, DumpJson(json)}};
 }
 
-std::vector<NamedCamera> ReadNerfstudio(const std::filesystem::path& file) {
+std::vector<ForeignCamera> ReadNerfstudio(const std::filesystem::path& file) {
+  std::vector<ForeignCamera> cameras;
   try {
     const Json json = Json::parse(ReadTextFile(file));
-    std::vector<NamedCamera> cameras;
-    for (const Json& frame : json.at("frames")) cameras.push_back(NerfCamera(frame, json));
-    return cameras;
+    for (const Json& frame : json.at("frames")) {
+      cameras.push_back(ReadNerfFrame(file, json, frame, cameras.size()));
+    }
   } catch (const Json::exception& error) {
-    throw Error(file, "is not as nerfstudio writes transforms.json: " + OneLine(error.what()));
+    throw Error(file,
+                "is not as nerfstudio writes transforms.json: " + TellJsonFault(error.what()));
   }
+  if (cameras.empty()) throw Error(file, "has no frames, and so no camera");
+  return cameras;
 }
 
 }  // namespace groundglass

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "exchange/prepared_image.h"
 
+#include "scene/camera_check.h"
+#include "scene/error.h"
 #include "scene/srgb.h"
 
 #include <Eigen/Geometry>
@@ -38,7 +40,11 @@ struct Side {
 Side FrameSide(double before, double after, bool centred) {
   // What is whole but for rounding gets no pixel more.
   const double length = centred ? 2 * std::max(before, after) : before + after;
-  const int size = static_cast<int>(std::ceil(length - 1e-6));
+  if (!(length > 0 && length <= kLongestSidePx)) {
+    throw Error("a picture that shows all that the camera's own shows would be longer than " +
+                std::to_string(kLongestSidePx) + " px");
+  }
+  const int size = std::max(1, static_cast<int>(std::ceil(length - 1e-6)));
   return {size, centred ? size / 2.0 : before};
 }
 

@@ -15,7 +15,8 @@ struct CameraNeeds {
 };
 
 // The nearest camera that a format can hold: a frame that shows all that the camera's own shows,
-// no coarser than it. Equal to the camera where nothing is needed.
+// no coarser than it. Equal to the camera where nothing is needed. Throws Error where that frame
+// would be larger than a picture can be.
 Camera PreparedCamera(const Camera& camera, const CameraNeeds& needs);
 bool IsSameFrame(const Camera& a, const Camera& b);
 

@@ -2,6 +2,9 @@
 // Part of Groundglass.
 #include "exchange/rules.h"
 
+#include "scene/camera_check.h"
+#include "scene/error.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,12 +37,53 @@ Eigen::Matrix4d WorldFromGlCam(const Camera& camera) {
 }
 
 void SetPoseFromGlCam(const Eigen::Matrix4d& world_from_gl_cam, Camera& camera) {
-  const Eigen::Matrix3d rotation =
-      GlFromCam() * world_from_gl_cam.topLeftCorner<3, 3>().transpose();
-  // Files have rounded numbers: the nearest rotation.
-  camera.cam_from_world.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  camera.cam_from_world.rotation =
+      GlFromCam() * NearestRotation(world_from_gl_cam.topLeftCorner<3, 3>()).transpose();
   camera.cam_from_world.translation =
       -(camera.cam_from_world.rotation * world_from_gl_cam.topRightCorner<3, 1>());
+}
+
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
+  constexpr double kMostRounding = 0.01;
+  const double determinant = matrix.determinant();
+  if (!std::isfinite(determinant) || determinant == 0) {
+    throw Error("the camera's matrix is no rotation: its determinant is " +
+                std::string(determinant == 0 ? "0" : "not finite"));
+  }
+  if (determinant < 0) {
+    throw Error(
+        "the camera's matrix mirrors (its determinant is below 0); expected a rotation, and a y "
+        "or z axis may be the wrong way round");
+  }
+  const Eigen::Matrix3d unscaled = matrix / std::cbrt(determinant);
+  const Eigen::Matrix3d gram = unscaled.transpose() * unscaled;
+  if (!((gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kMostRounding)) {
+    throw Error(
+        "the camera's matrix is no rotation: its axes are not at right angles, or not of one "
+        "length");
+  }
+  return Eigen::Quaterniond(unscaled).normalized().toRotationMatrix();
+}
+
+HeadingPitchRoll HeadingPitchRollOf(const Camera& camera) {
+  const Eigen::Matrix3d r = WorldFromGlCam(camera).topLeftCorner<3, 3>();
+  const double level = std::hypot(r(2, 0), r(2, 2));
+  HeadingPitchRoll angles;
+  angles.pitch_deg = DegreesFromRadians(std::atan2(r(2, 1), level));
+  if (level > 1e-9) {
+    angles.heading_deg = DegreesFromRadians(std::atan2(r(0, 1), r(1, 1)));
+    angles.roll_deg = DegreesFromRadians(std::atan2(-r(2, 0), r(2, 2)));
+  } else {
+    angles.heading_deg = -DegreesFromRadians(std::atan2(r(1, 0), r(0, 0)));
+  }
+  return angles;
+}
+
+void SetSize(double width_px, double height_px, Camera& camera) {
+  const std::string fault = FindSizeFault(width_px, height_px);
+  if (!fault.empty()) throw Error(fault);
+  camera.width_px = static_cast<int>(width_px);
+  camera.height_px = static_cast<int>(height_px);
 }
 
 Eigen::Vector2d CenterFromMiddle(const Camera& camera) { return Center(camera) - Middle(camera); }

@@ -17,7 +17,25 @@ inline Eigen::Matrix3d GlFromCam() { return Eigen::Vector3d(1, -1, -1).asDiagona
 
 // Where such a camera stands and how it is turned, camera to world: [R' G | C].
 Eigen::Matrix4d WorldFromGlCam(const Camera& camera);
+// Throws Error as NearestRotation does.
 void SetPoseFromGlCam(const Eigen::Matrix4d& world_from_gl_cam, Camera& camera);
+
+// The rotation that a file's matrix means: its numbers are rounded, and it may be scaled, which
+// directions are not. Throws Error for one that mirrors, or that changes angles.
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix);
+
+// The angles that RealityCapture turns a camera by, degrees: with its axes as OpenGL's, camera to
+// world is Rz(-heading) Rx(pitch) Ry(roll); pitch is 90 for a level view, from -90 to 90. There,
+// where heading and roll are one, roll is 0.
+struct HeadingPitchRoll {
+  double heading_deg = 0;
+  double pitch_deg = 0;
+  double roll_deg = 0;
+};
+HeadingPitchRoll HeadingPitchRollOf(const Camera& camera);
+
+// Sets the picture's size. Throws Error where it cannot be one (scene/camera_check.h).
+void SetSize(double width_px, double height_px, Camera& camera);
 
 // The principal point, which is (cx, cy) from the picture's top-left corner here, where other
 // programs count it from:

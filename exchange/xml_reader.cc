@@ -234,6 +234,10 @@ XmlElement ReadXml(const std::filesystem::path& file) {
   return XmlParser(file, text).Parse();
 }
 
+std::string XmlPlace(const std::filesystem::path& file, const XmlElement& element) {
+  return file.string() + ":" + std::to_string(element.line);
+}
+
 std::vector<double> ReadXmlNumbers(const std::filesystem::path& file,
                                    const XmlElement& element,
                                    std::string_view text) {
@@ -252,29 +256,6 @@ std::vector<double> ReadXmlNumbers(const std::filesystem::path& file,
     }
     numbers.push_back(*number);
   }
-}
-
-std::string XmlEscaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
 }
 
 }  // namespace groundglass

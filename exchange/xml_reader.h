@@ -32,12 +32,12 @@ struct XmlElement {
 // elements nested more than 200 deep.
 XmlElement ReadXml(const std::filesystem::path& file);
 
+// "FILE:LINE", for messages.
+std::string XmlPlace(const std::filesystem::path& file, const XmlElement& element);
+
 // Numbers parted by blanks. Throws Error naming file and line for a word that is none.
 std::vector<double> ReadXmlNumbers(const std::filesystem::path& file,
                                    const XmlElement& element,
                                    std::string_view text);
-
-// Text as it stands in XML: & < > " are escaped.
-std::string XmlEscaped(std::string_view text);
 
 }  // namespace groundglass

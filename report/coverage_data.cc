@@ -3,6 +3,7 @@
 #include "report/report_data.h"
 #include "report/report_text.h"
 #include "scene/error.h"
+#include "scene/formats/json_fault.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -144,7 +145,7 @@ mustache::data FromCoverage(const ReportInput& input, const Make& make) {
     return make(*input.coverage);
   } catch (const Json::exception& error) {
     throw Error(input.folder / "coverage.json",
-                OneLine(std::string("is not as texturing writes it: ") + error.what()));
+                "is not as texturing writes it: " + TellJsonFault(error.what()));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "report/embedded_picture.h"
+#include "report/model_modes.h"
 #include "report/report_data.h"
 #include "report/report_page.h"
 #include "scene/error.h"
@@ -19,6 +20,7 @@ namespace mustache = kainjow::mustache;
 
 // Of what the page may weigh, before Base64 adds a third to it.
 constexpr double kModelShare = 0.3;
+constexpr double kModesShare = 0.05;
 // Software OpenGL in browsers takes pages no larger than 8192 px.
 constexpr int kLargestPagePx = 4096;
 
@@ -68,12 +70,16 @@ mustache::data ModelData(const ReportInput& input) {
   data["turned"] = false;
   if (kModelScript[0] == '\0') return data;
   try {
-    const std::string glb = SmallGlb(
-        input.folder, static_cast<size_t>(kModelShare * 1e6 * input.options.max_megabytes));
+    const double max_bytes = 1e6 * input.options.max_megabytes;
+    const std::string glb = SmallGlb(input.folder, static_cast<size_t>(kModelShare * max_bytes));
     if (glb.empty()) return data;
     mustache::data turned;
     turned["glb"] = EncodeBase64({reinterpret_cast<const uint8_t*>(glb.data()), glb.size()});
     turned["script"] = kModelScript;
+    const std::string modes =
+        ModelModesJson(input.folder, static_cast<size_t>(kModesShare * max_bytes));
+    turned["modes"] = false;
+    if (!modes.empty()) turned["modes"] = mustache::data("json", modes);
     data["turned"] = std::move(turned);
   } catch (const Error&) {
     // A model that cannot be read is told by the stage that made it; the page goes without.

@@ -3,6 +3,7 @@
 #include "report/report_data.h"
 #include "report/report_text.h"
 #include "scene/error.h"
+#include "scene/formats/json_fault.h"
 #include "scene/text.h"
 
 #include <Eigen/Dense>
@@ -64,7 +65,21 @@ std::vector<Standpoint> FindStandpoints(const Json& coverage) {
   return standpoints;
 }
 
-Step StandStep(const Standpoint& standpoint, const std::string& unit) {
+// Higher above the model's foot than a person with a pole holds a camera, m.
+constexpr double kWithinReachM = 4;
+
+// What it takes to get up there; empty for a place that a person reaches, or if nobody knows.
+std::string HowToGetThere(const Eigen::Vector3d& at_in_site, const ReportInput& input) {
+  if (!input.scene || input.scene->model.points_in_world.empty()) return "";
+  const PolygonModel& model = input.scene->model;
+  const double height = at_in_site.z() - ComputeBounds(model).min.z();
+  if (height * MetresPerUnit(model.unit) <= kWithinReachM) return "";
+  return ", " + FormatRounded(height, 10) + input.unit +
+         " above the model\u2019s foot (with a drone, or from a window or roof nearby)";
+}
+
+Step StandStep(const Standpoint& standpoint, const ReportInput& input) {
+  const std::string& unit = input.unit;
   std::string faces;
   for (size_t i = 0; i < std::min(standpoint.faces.size(), kMostNamedFaces); ++i) {
     faces += (i == 0 ? "" : ", ") + standpoint.faces[i];
@@ -75,8 +90,9 @@ Step StandStep(const Standpoint& standpoint, const std::string& unit) {
   const Eigen::Vector3d& at = standpoint.at_in_site;
   return {"Take a photograph from x " + FormatRounded(at.x(), 10) + ", y " +
               FormatRounded(at.y(), 10) + ", z " + FormatRounded(at.z(), 10) + unit +
-              ": it would show " + FormatRounded(standpoint.missing_area, 10) + unit +
-              "\u00b2 that none shows yet (" + faces + ").",
+              HowToGetThere(at, input) + ": it would show " +
+              FormatRounded(standpoint.missing_area, 10) + unit + "\u00b2 that none shows yet (" +
+              faces + ").",
           ""};
 }
 
@@ -94,6 +110,25 @@ void AddPhotographs(const ReportInput& input,
   }
 }
 
+// Photographs that nobody wrote a tag for: they are in no table, and so in no other part.
+void AddUntagged(const ReportInput& input, std::vector<Step>& steps) {
+  if (!input.scene || input.scene->untagged_images.empty()) return;
+  const std::vector<std::filesystem::path>& images = input.scene->untagged_images;
+  std::string names;
+  for (size_t i = 0; i < std::min(images.size(), kMostNamedFaces); ++i) {
+    names += (i == 0 ? "" : ", ") + images[i].filename().string();
+  }
+  if (images.size() > kMostNamedFaces) {
+    names += " and " + std::to_string(images.size() - kMostNamedFaces) + " more";
+  }
+  steps.push_back({names + (images.size() == 1 ? " has" : " have") +
+                       " no tag and so no part in this: write down where " +
+                       std::string(images.size() == 1 ? "it was" : "they were") +
+                       " taken from "
+                       "(groundglass check SCENE --template makes a file to fill in).",
+                   ""});
+}
+
 }  // namespace
 
 // What can be mended at the desk comes before a walk to the building.
@@ -106,15 +141,16 @@ mustache::data NextStepsData(const ReportInput& input) {
     AddPhotographs(
         input, Verdict::kReview, "is used at lower weight: look whether the edges fit.", steps);
   }
+  AddUntagged(input, steps);
   if (input.coverage) {
     try {
       const std::vector<Standpoint> standpoints = FindStandpoints(*input.coverage);
       for (size_t i = 0; i < std::min(standpoints.size(), kMostStandpoints); ++i) {
-        steps.push_back(StandStep(standpoints[i], input.unit));
+        steps.push_back(StandStep(standpoints[i], input));
       }
     } catch (const Json::exception& error) {
       throw Error(input.folder / "coverage.json",
-                  OneLine(std::string("is not as texturing writes it: ") + error.what()));
+                  "is not as texturing writes it: " + TellJsonFault(error.what()));
     }
   }
   for (size_t i = 0; i < std::min(input.model_errors.size(), kMostModelErrors); ++i) {

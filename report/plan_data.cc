@@ -47,7 +47,9 @@ std::vector<const Registration*> Readable(const ReportInput& input) {
   return readable;
 }
 
-PlanScale ScaleFor(const ReportInput& input, const std::vector<const Registration*>& stations) {
+// In `site`, what is on the plan but for what is drawn enlarged.
+Eigen::AlignedBox2d BoundsOf(const ReportInput& input,
+                             const std::vector<const Registration*>& stations) {
   Eigen::AlignedBox2d bounds;
   for (const Registration* station : stations) {
     bounds.extend(Eigen::Vector2d(station->measured.position_in_site.head<2>()));
@@ -58,6 +60,10 @@ PlanScale ScaleFor(const ReportInput& input, const std::vector<const Registratio
       bounds.extend(Eigen::Vector2d(SiteFromWorld(point).head<2>()));
     }
   }
+  return bounds;
+}
+
+PlanScale ScaleFor(const Eigen::AlignedBox2d& bounds) {
   PlanScale scale;
   scale.corner = bounds.min();
   const double longest = std::max({bounds.sizes().x(), bounds.sizes().y(), 1e-9});
@@ -100,15 +106,51 @@ double ChooseFactor(const std::vector<const Registration*>& stations, const Plan
   return chosen;
 }
 
-// Of 95 % of all errors across, in the drawing.
-mustache::data EllipseData(const Registration& station,
-                           const Eigen::Vector2d& middle,
-                           double factor) {
+// The ellipse of 95 % of all errors of a place, in `site`.
+struct PlaceEllipse {
+  Eigen::Vector2d radii;    // the longer one second
+  Eigen::Vector2d longest;  // its direction
+};
+PlaceEllipse EllipseOf(const Registration& station) {
   constexpr double kShare95 = 2.4477;
   const Eigen::Matrix2d covariance = SiteCovariance(station.covariance).topLeftCorner<2, 2>();
   const SymmetricEigen axes = DecomposeSymmetric(covariance);
-  const Eigen::Vector2d radii = kShare95 * factor * axes.values.cwiseMax(0).cwiseSqrt();
-  const Eigen::Vector2d longest = axes.vectors.col(1);
+  return {kShare95 * axes.values.cwiseMax(0).cwiseSqrt(), axes.vectors.col(1)};
+}
+
+// What is drawn enlarged has its place too, but one place that hardly anything is known of does not
+// make all others small.
+Eigen::AlignedBox2d WithEllipses(const Eigen::AlignedBox2d& bounds,
+                                 const std::vector<const Registration*>& stations,
+                                 double factor) {
+  constexpr double kMostShare = 0.4;
+  Eigen::AlignedBox2d whole = bounds;
+  for (const Registration* station : stations) {
+    if (!HasCorrection(station->verdict)) continue;
+    const Eigen::Vector2d measured = station->measured.position_in_site.head<2>();
+    const Eigen::Vector2d corrected = station->corrected.position_in_site.head<2>();
+    const Eigen::Vector2d middle = measured + factor * (corrected - measured);
+    const PlaceEllipse ellipse = EllipseOf(*station);
+    const Eigen::Vector2d across(-ellipse.longest.y(), ellipse.longest.x());
+    const Eigen::Vector2d reach = factor * ((ellipse.radii.y() * ellipse.longest).cwiseAbs2() +
+                                            (ellipse.radii.x() * across).cwiseAbs2())
+                                               .cwiseSqrt();
+    whole.extend(Eigen::Vector2d(middle - reach));
+    whole.extend(Eigen::Vector2d(middle + reach));
+  }
+  const Eigen::Vector2d most =
+      Eigen::Vector2d::Constant(kMostShare * std::max(bounds.sizes().maxCoeff(), 1e-9));
+  return whole.intersection(Eigen::AlignedBox2d(Eigen::Vector2d(bounds.min() - most),
+                                                Eigen::Vector2d(bounds.max() + most)));
+}
+
+// In the drawing.
+mustache::data EllipseData(const Registration& station,
+                           const Eigen::Vector2d& middle,
+                           double factor) {
+  const PlaceEllipse known = EllipseOf(station);
+  const Eigen::Vector2d radii = factor * known.radii;
+  const Eigen::Vector2d& longest = known.longest;
   mustache::data ellipse;
   ellipse["x"] = Coordinate(middle.x());
   ellipse["y"] = Coordinate(middle.y());
@@ -156,8 +198,9 @@ mustache::data PlanData(const ReportInput& input) {
   if (!input.registrations) return false;
   const std::vector<const Registration*> stations = Readable(input);
   if (stations.empty()) return false;
-  const PlanScale scale = ScaleFor(input, stations);
-  const double factor = ChooseFactor(stations, scale);
+  const Eigen::AlignedBox2d bounds = BoundsOf(input, stations);
+  const double factor = ChooseFactor(stations, ScaleFor(bounds));
+  const PlanScale scale = ScaleFor(WithEllipses(bounds, stations, factor));
   mustache::list list;
   for (const Registration* station : stations) {
     list.push_back(StationData(*station, scale, factor, stations.size() <= kMostNames));

@@ -3,6 +3,7 @@
 #include "report/report_input.h"
 
 #include "scene/error.h"
+#include "scene/formats/json_fault.h"
 #include "scene/formats/registration_io.h"
 #include "scene/formats/view_io.h"
 
@@ -23,7 +24,7 @@ std::optional<nlohmann::json> ReadJsonIfThere(const fs::path& file) {
   try {
     return nlohmann::json::parse(ReadTextFile(file));
   } catch (const nlohmann::json::exception& error) {
-    throw Error(file, std::string("is not JSON: ") + error.what());
+    throw Error(file, "is not JSON: " + TellJsonFault(error.what()));
   }
 }
 

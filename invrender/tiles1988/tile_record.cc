@@ -5,6 +5,7 @@
 #include "scene/face_number.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/json_fault.h"
 #include "scene/formats/osu_io.h"
 #include "scene/formats/view_io.h"
 
@@ -89,7 +90,7 @@ TileRecord ReadTileRecord(const fs::path& folder) {
           ReadView(folder / "views" / (photograph.name + ".view")), size.width, size.height);
     }
   } catch (const nlohmann::json::exception& exception) {
-    throw Error(file, std::string("is no record of tiles: ") + exception.what());
+    throw Error(file, "is no record of tiles: " + TellJsonFault(exception.what()));
   } catch (const std::bad_optional_access&) {
     throw Error(file, "is no record of tiles: a photograph without an image");
   }

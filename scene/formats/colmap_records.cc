@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/formats/colmap_records.h"
 
+#include "scene/camera_check.h"
 #include "scene/error.h"
 #include "scene/text.h"
 
@@ -66,11 +67,9 @@ ColmapCamera MakeColmapCamera(const ColmapCameraKind& kind,
                               const std::vector<double>& parameters,
                               const std::string& place,
                               const std::filesystem::path& folder) {
-  constexpr long long kLongestSide = 1 << 17;
-  if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide) {
-    throw Error(place + ": an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                " pixels cannot be");
-  }
+  const std::string size_fault =
+      FindSizeFault(static_cast<double>(width), static_cast<double>(height));
+  if (!size_fault.empty()) throw Error(place + ": " + size_fault);
   if (static_cast<int>(parameters.size()) != kind.num_parameters) {
     throw Error(place + ": " + std::string(kind.name) + " has " +
                 std::to_string(kind.num_parameters) + " parameters, not " +
@@ -98,9 +97,8 @@ ColmapCamera MakeColmapCamera(const ColmapCameraKind& kind,
   camera.k3 = value(kind.k3);
   camera.p1 = value(kind.p1);
   camera.p2 = value(kind.p2);
-  if (!(camera.focal_x_px > 0 && camera.focal_y_px > 0)) {
-    throw Error(place + ": the focal length must be above 0");
-  }
+  const std::string fault = FindCameraFault(camera);
+  if (!fault.empty()) throw Error(place + ": " + fault);
   for (int i = kFirstRational; i < kind.num_parameters; ++i) {
     if (value(i) == 0) continue;
     result.fault = place + ": FULL_OPENCV is read where k4, k5 and k6 are 0; here they are " +

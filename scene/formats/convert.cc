@@ -49,6 +49,19 @@ void ChangeUnit(LengthUnit unit, PolygonModel& model) {
   model.unit = unit;
 }
 
+// Those of a folder, in the order in which people count; none if it is no folder.
+std::vector<fs::path> ListViewFiles(const fs::path& folder) {
+  std::vector<fs::path> views;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".view") views.push_back(entry.path());
+  }
+  std::sort(views.begin(), views.end(), [](const fs::path& a, const fs::path& b) {
+    return NaturalLess(a.stem().string(), b.stem().string());
+  });
+  return views;
+}
+
 }  // namespace
 
 ConvertResult ConvertModel(const fs::path& input,
@@ -57,7 +70,12 @@ ConvertResult ConvertModel(const fs::path& input,
                            const std::optional<LengthUnit>& output_unit) {
   const std::string to = LowerCase(output.extension().string());
   if (to != ".osu" && to != ".obj" && to != ".glb") {
+    // Where the input is none that is read, it is what has to be mended, and reading it says so.
+    (void)ReadModel(input, options);
     throw Error(output, "a model is written as .osu, .obj or .glb");
+  }
+  if (std::error_code error; fs::equivalent(input, output, error) && !error) {
+    throw Error(output, "would be written over the input itself; give another name");
   }
   ConvertResult result;
   TexturedModelReading reading = ReadTexturedModel(input, options, to != ".osu");
@@ -121,11 +139,27 @@ ConvertResult ConvertColmapToViews(const fs::path& input,
   return {Count(cameras.size(), "view file") + " in " + output.string(), warnings};
 }
 
-ViewCameras ReadViewCameras(const fs::path& folder, const fs::path& images) {
+ViewCameras ReadViewCameras(const fs::path& input, const fs::path& given_images) {
   ViewCameras result;
+  std::vector<fs::path> views = ListViewFiles(input);
+  const bool is_scene = views.empty();
+  if (is_scene) views = ListViewFiles(input / "views");
+  if (views.empty()) {
+    throw Error(input,
+                "holds no cameras: no view files, no COLMAP model, no fSpy projects, and it is no "
+                "output folder");
+  }
+  result.images = given_images;
+  if (given_images.empty()) {
+    const fs::path folder = fs::absolute(input / ".").lexically_normal().parent_path();
+    result.images = (is_scene ? folder : folder.parent_path()) / "images";
+  }
+  const fs::path& images = result.images;
   std::error_code error;
   if (!fs::is_directory(images, error)) {
-    throw Error(images, "no such folder of images, which tell the photographs' sizes");
+    throw Error(images,
+                "no such folder of images, which tell the photographs' sizes; say with --images "
+                "where they are");
   }
   const std::vector<std::string> image_paths = ListImagePaths(images);
   const std::vector<std::string> names = NamePhotographs(image_paths);
@@ -133,13 +167,6 @@ ViewCameras ReadViewCameras(const fs::path& folder, const fs::path& images) {
   for (size_t i = 0; i < image_paths.size(); ++i) {
     image_names.push_back({names[i], image_paths[i]});
   }
-  std::vector<fs::path> views;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".view") views.push_back(entry.path());
-  }
-  std::sort(views.begin(), views.end(), [](const fs::path& a, const fs::path& b) {
-    return NaturalLess(a.stem().string(), b.stem().string());
-  });
   for (const fs::path& view : views) {
     const ViewTag tag = ReadView(view);
     const std::optional<size_t> found = FindPhotograph(view.stem().string(), image_names);
@@ -150,7 +177,8 @@ ViewCameras ReadViewCameras(const fs::path& folder, const fs::path& images) {
     const ImageSize size = ReadImageSize(images / image_paths[*found]);
     result.cameras.push_back({image_paths[*found], CameraFromTag(tag, size.width, size.height)});
   }
-  if (result.cameras.empty()) throw Error(folder, "no view file here has an image");
+  if (result.cameras.empty())
+    throw Error(input, "no view file here has an image in " + images.string());
   return result;
 }
 

@@ -34,16 +34,18 @@ ConvertResult ConvertColmapToViews(const std::filesystem::path& input,
                                    const std::filesystem::path& output,
                                    double lookat_distance);
 
-// The cameras of a folder of view files. The sizes and names of the images come from `images`,
-// matched by name, in sub-folders too; a warning for each view that has none, an Error if none has.
+// The cameras of a folder of view files, or of a scene. The sizes and names of the images come from
+// `images` (empty: the folder images/ beside the view files'), matched by name, in sub-folders too;
+// a warning for each view that has none, an Error if none has.
 struct ViewCameras {
   std::vector<NamedCamera> cameras;
+  std::filesystem::path images;  // where they were found
   std::vector<std::string> warnings;
 };
 ViewCameras ReadViewCameras(const std::filesystem::path& folder,
                             const std::filesystem::path& images);
 
-// The same as a COLMAP text model.
+// The same as a COLMAP text model. images: as above.
 ConvertResult ConvertViewsToColmap(const std::filesystem::path& input,
                                    const std::filesystem::path& output,
                                    const std::filesystem::path& images);

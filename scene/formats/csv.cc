@@ -275,4 +275,11 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::vector<std::string>* 
   }
 }
 
+std::string CsvField(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return field + "\"";
+}
+
 }  // namespace groundglass

@@ -54,4 +54,8 @@ class CsvTable {
   std::vector<std::string> warnings_;
 };
 
+// A field as it is written between commas: one with a comma, a quotation mark or a line end stands
+// in quotation marks (RFC 4180).
+std::string CsvField(std::string_view text);
+
 }  // namespace groundglass

@@ -3,6 +3,7 @@
 #include "scene/formats/gltf_parse.h"
 
 #include "scene/formats/gltf_accessor.h"
+#include "scene/formats/json_fault.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
 
@@ -82,10 +83,7 @@ std::string FaultOfGltf(std::string_view json, std::string fault) {
   try {
     [[maybe_unused]] const nlohmann::json parsed = nlohmann::json::parse(json);
   } catch (const nlohmann::json::exception& error) {
-    std::string what = error.what();
-    const size_t close = what.find("] ");
-    if (close != std::string::npos) what.erase(0, close + 2);
-    return "its JSON is damaged or cut short (" + OneLine(what) + ")" + kCopyAgain;
+    return "its JSON is damaged or cut short (" + TellJsonFault(error.what()) + ")" + kCopyAgain;
   }
   std::replace(fault.begin(), fault.end(), '\n', ' ');
   return fault.empty() ? std::string("it is damaged") + kCopyAgain : fault;

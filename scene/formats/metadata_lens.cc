@@ -19,6 +19,8 @@ const double kDiagonal35mm = std::hypot(36.0, 24.0);
 const double kRounding = 1 / std::sqrt(12.0);
 // Sides that differ by no more than this are the same shape: whole pixels, and cameras' margins.
 constexpr double kSameShape = 0.01;
+// A camera's pixels are square to this share, one standard deviation.
+constexpr double kSquarePixels = 0.001;
 
 std::string SidesOf(const ImageSize& size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height);
@@ -148,6 +150,17 @@ MetadataLens FindMetadataLens(const PhotographMetadata& metadata,
                                                         : metadata.maker + " " + metadata.model));
   found.how = focal->how + (camera.empty() ? "" : " (" + camera + ")") + frame.remark;
   return found;
+}
+
+KnownKeys KeysOfMetadata(const MetadataLens& lens, const ImageSize& size) {
+  KnownKeys keys;
+  if (!lens.view_angle_deg) return keys;
+  const double aspect = static_cast<double>(size.width) / size.height;
+  AddKnown(keys, "v", *lens.view_angle_deg, lens.how);
+  AddKnown(keys, "sigma_v", lens.sigma_deg);
+  AddKnown(keys, "a", aspect);
+  AddKnown(keys, "sigma_a", kSquarePixels * aspect);
+  return keys;
 }
 
 }  // namespace groundglass

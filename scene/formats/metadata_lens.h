@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/formats/known_keys.h"
 #include "scene/formats/photograph_metadata.h"
 
 #include <optional>
@@ -35,5 +36,9 @@ struct MetadataLens {
 // both axes.
 MetadataLens FindMetadataLens(const PhotographMetadata& metadata,
                               const MetadataLensOptions& options = {});
+
+// What it says as a tag's keys, of a picture of this size: v and, since a camera's pixels are
+// square, a, with their standard deviations; none where there is no view angle.
+KnownKeys KeysOfMetadata(const MetadataLens& lens, const ImageSize& size);
 
 }  // namespace groundglass

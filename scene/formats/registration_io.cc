@@ -3,6 +3,7 @@
 #include "scene/formats/registration_io.h"
 
 #include "scene/error.h"
+#include "scene/formats/json_fault.h"
 #include "scene/formats/view_io.h"
 #include "scene/frames.h"
 
@@ -210,7 +211,7 @@ auto ReadDocument(const std::filesystem::path& file, Read read) {
   try {
     return read(Json::parse(ReadTextFile(file)));
   } catch (const Json::exception& error) {
-    throw Error(file, std::string("not a registration file: ") + error.what());
+    throw Error(file, "not a registration file: " + TellJsonFault(error.what()));
   } catch (const Error& error) {
     const std::string message = error.what();
     if (message.starts_with(file.string())) throw;

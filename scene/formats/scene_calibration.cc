@@ -15,24 +15,12 @@ namespace fs = std::filesystem;
 
 constexpr size_t kNamesInNote = 3;
 constexpr const char* kFromMetadata = "the pictures' own metadata";
-// A camera's pixels are square to this share, one standard deviation.
-constexpr double kSquarePixels = 0.001;
 
 // What a lens says instead of a tag's view angle and aspect.
 KnownKeys KeysOfLens(const Lens& lens) {
   KnownKeys keys;
   AddKnown(keys, "v", lens.view_angle_deg);
   AddKnown(keys, "a", lens.aspect);
-  return keys;
-}
-
-KnownKeys KeysOfMetadata(const MetadataLens& lens, const ImageSize& size) {
-  const double aspect = static_cast<double>(size.width) / size.height;
-  KnownKeys keys;
-  AddKnown(keys, "v", *lens.view_angle_deg);
-  AddKnown(keys, "sigma_v", lens.sigma_deg);
-  AddKnown(keys, "a", aspect);
-  AddKnown(keys, "sigma_a", kSquarePixels * aspect);
   return keys;
 }
 

@@ -201,5 +201,22 @@ TEST(Options, ListsAreObjectsForThoseWhoAskForJson) {
       board);
 }
 
+TEST(Options, WhatIsNoNumberOrNoneOfAListIsSaidPlainly) {
+  for (const auto& [words, message] :
+       {std::pair<std::vector<std::string>, std::string>(
+            {"calibrate", "lines", "hall", "--aspect", "0"},
+            "calibrate lines: --aspect: must be above 0, not 0"),
+        {{"calibrate", "lens", "hall", "--geoid", "abc"},
+         "calibrate lens: --geoid: expected a number, not 'abc'"},
+        {{"run", "hall", "-o", "out", "--seed", "-3"}, "run: --seed: must be at least 0, not -3"},
+        {{"run", "hall", "-o", "out", "--seed", "1.5"},
+         "run: --seed: expected a whole number, 0 or more, not '1.5'"},
+        {{"render", "m.osu", "-o", "e.tif", "--elevation", "all", "--also", "bmp"},
+         "render: --also: 'bmp' is none of tif, pdf, svg, dxf, layers"},
+        {{"run", "hall", "-o", "out", "--seed"}, "run: --seed: its value is missing"}}) {
+    EXPECT_THAT(UsageMessage(words), HasSubstr(message));
+  }
+}
+
 }  // namespace
 }  // namespace groundglass

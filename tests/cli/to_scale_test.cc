@@ -57,6 +57,14 @@ TEST(ToScale, WhatCannotBeMeantIsNamed) {
       RunProgram({"render", kHall, "--elevation", "south", "--also", "layers", "-o", out});
   EXPECT_EQ(layers.status, 1);
   EXPECT_THAT(layers.err, HasSubstr("layers are made from an output folder"));
+  const std::string scene = std::filesystem::path(kHall).parent_path();
+  const ProgramRun of_scene = RunProgram({"render", scene, "--elevation", "all", "-o", out});
+  EXPECT_EQ(of_scene.status, 1);
+  EXPECT_THAT(of_scene.err, HasSubstr("is a scene, and what is drawn is a model or the output"));
+  const ProgramRun beside = RunProgram(
+      {"render", kHall, "--section", "0,200,60,200", "--scale", "500", "-o", folder / "s.svg"});
+  EXPECT_EQ(beside.status, 0);
+  EXPECT_THAT(beside.err, HasSubstr("section: its plane does not meet the model, which reaches"));
 }
 
 // The brick hall's cameras are off-centre, so these formats get pictures of their own.

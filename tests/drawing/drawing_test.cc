@@ -179,9 +179,57 @@ TEST(AssessDrawing, WarnsWhereTheScalePromisesMoreThanThereIs) {
                   "50 mm, for the slant of the photographs."));
   EXPECT_THAT(AccuracyWarnings(at_50),
               ElementsAre("1:50 promises 12.5 mm (0.25 mm on paper), but half of the photographs' "
-                          "pixels are larger than 20 mm; 1:100 fits them"));
+                          "pixels are larger than 20 mm; 1:100 fits them, or take photographs from "
+                          "nearer, or with a longer lens"));
   EXPECT_THAT(AccuracyWarnings(AssessDrawing(renderer, wall, drawing, sources, 100, 0.01)),
               ElementsAre());
+}
+
+TEST(AssessDrawing, NamesWhatDominatesAndDoesNotWarnOfAnAssumption) {
+  DrawingAccuracy accuracy;
+  accuracy.promise_m = 0.0125;
+  accuracy.camera_sigma_m = Spread{0.004, 0.005, 0.006};
+  accuracy.model_sigma_m = 0.03;
+  EXPECT_THAT(
+      AccuracyWarnings(accuracy),
+      ElementsAre("1:50 promises 12.5 mm (0.25 mm on paper), but the model is sure to 30 mm "
+                  "only (the cameras to 5 mm); 1:200 fits, or measure the model better"));
+  accuracy.is_model_sigma_assumed = true;
+  EXPECT_THAT(AccuracyWarnings(accuracy), ElementsAre());
+  EXPECT_THAT(
+      DescribeAccuracy(accuracy).back(),
+      HasSubstr("the 30 mm are assumed, and 1:50 promises 12.5 mm. If it was measured better"));
+  accuracy.camera_sigma_m = Spread{0.01, 0.04, 0.05};
+  EXPECT_THAT(
+      AccuracyWarnings(accuracy),
+      ElementsAre("1:50 promises 12.5 mm (0.25 mm on paper), but the cameras put photographs "
+                  "on the model to 40 mm only; 1:200 fits, or take photographs from nearer, "
+                  "or more that overlap"));
+}
+
+TEST(MakeSection, OutsideOfTheModelNothingIsCut) {
+  const PolygonModel box = MetricBox().model;
+  EXPECT_TRUE(CutsModel(box, MakeSection(box, {-5, 0}, {5, 0})));
+  EXPECT_FALSE(CutsModel(box, MakeSection(box, {-5, -3}, {5, -3})));
+  EXPECT_TRUE(CutsModel(box, MakePlan(box, 0.5)));
+  EXPECT_FALSE(CutsModel(box, MakePlan(box, 3)));
+}
+
+TEST(PaintUnphotographed, GreyReplacesBlackWhereNoPhotographIs) {
+  TexturedModel wall = MakeWall(2, 1, MakePlainPage(4, 2, 0, 0, 0));
+  wall.pages[0].srgb8.At(1, 0)[1] = 90;  // beside a photograph's texel, with its colour
+  DrawingSources sources;
+  sources.photographs = {"s1"};
+  sources.provenance = {Image16(4, 2, 1)};
+  *sources.provenance[0].At(0, 0) = 1;
+  PaintUnphotographed(sources, wall);
+  EXPECT_EQ(*wall.pages[0].srgb8.At(0, 0), 0);
+  EXPECT_EQ(*wall.pages[0].srgb8.At(1, 0), 0);
+  EXPECT_EQ(*wall.pages[0].srgb8.At(2, 0), 172);
+  Renderer renderer(wall);
+  const Drawing drawing = MakeElevation(wall.model, {0}, "wall");
+  EXPECT_NEAR(
+      AssessDrawing(renderer, wall, drawing, sources, 50, 0.05).untextured_share, 7.0 / 8, 0.02);
 }
 
 }  // namespace

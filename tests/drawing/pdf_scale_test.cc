@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "drawing/pdf_writer.h"
 #include "drawing/write_drawing.h"
 #include "scene/child_process.h"
 #include "scene/error.h"
@@ -112,6 +113,18 @@ TEST(PdfScale, ALargerSheetThanReadersTakeCountsInLargerUnits) {
   const std::string pdf = ReadTextFile(folder / "wall.pdf");
   EXPECT_THAT(pdf, HasSubstr("/MediaBox [0 0 14400 "));
   EXPECT_THAT(pdf, HasSubstr("/UserUnit 1.185"));
+}
+
+TEST(PdfPage, SmallNumbersHaveNoExponents) {
+  std::string bytes;
+  const ByteSink append = [&](std::string_view more) { bytes += more; };
+  PdfPage page(append, 100, 100);
+  page.SetPen(0.0004, 0.00012);
+  page.DrawLine({0.0005, -0.00001}, {1e-7, 123456.5});
+  page.Finish("small");
+  EXPECT_THAT(bytes, HasSubstr("0.0004 w 0.0001 G"));
+  EXPECT_THAT(bytes, HasSubstr("0.0005 0 m 0 123456.5 l S"));
+  EXPECT_EQ(bytes.find("e-"), std::string::npos);
 }
 
 }  // namespace

@@ -42,9 +42,10 @@ Camera ThereAndBack(const CameraFormat& format, const Camera& camera) {
       format.is_folder ? folder.path() : folder / ("cameras" + std::string(format.ending));
   const std::vector<FileToWrite> files = format.format(SceneOf(camera), out);
   WriteFilesAtomically(files);
-  const std::vector<NamedCamera> read = format.read(files.at(0).file);
+  const std::vector<ForeignCamera> read = format.read(files.at(0).file);
   EXPECT_EQ(read.size(), 1u);
-  return read.at(0).camera;
+  EXPECT_EQ(read.at(0).fault, "");
+  return read.at(0).named.camera;
 }
 
 TEST(CameraFormats, ThoseThatAreReadGiveTheCameraBack) {
@@ -93,7 +94,7 @@ TEST(Nerfstudio, WhatItsImporterTurnedTheWorldByIsUndone) {
   }
   const TemporaryFolder folder;
   const auto file = folder.Write("transforms.json", json.dump());
-  EXPECT_LT(LargestMiss(camera, ReadNerfstudio(file)[0].camera), kSamePx);
+  EXPECT_LT(LargestMiss(camera, ReadNerfstudio(file)[0].named.camera), kSamePx);
 }
 
 TEST(Fspy, ThePrincipalPointIsOnAPlaneWithYUp) {
@@ -245,6 +246,54 @@ TEST(RealityCapture, ACentredPictureHasOneReadingOnly) {
   }
 }
 
+Eigen::Matrix3d Turn(const Eigen::Vector3d& axis, double degrees) {
+  return Eigen::AngleAxisd(RadiansFromDegrees(degrees), axis).toRotationMatrix();
+}
+
+TEST(RealityCaptureCsv, ItsTableGivesThePixelOfACentredPicture) {
+  // Off the middle, with oblong pixels and a lens: what is written is the picture made anew. Level,
+  // where heading and roll are one, too.
+  Camera level = OffCentreCamera();
+  level.cam_from_world.rotation << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  for (const Camera& given : {LensCamera(), TurnedCamera(OffCentreCamera(), 1), level}) {
+    const Camera camera = PreparedCamera(given, {true, true, true});
+    std::istringstream text(FormatRealityCaptureCsv(SceneOf(camera), "/t")[0].bytes);
+    std::string line;
+    std::getline(text, line);
+    EXPECT_EQ(line, "#name,x,y,alt,heading,pitch,roll,f,px,py,k1,k2,k3,k4,t1,t2");
+    std::getline(text, line, ',');
+    EXPECT_EQ(line, "s3.jpg");
+    std::vector<double> v;
+    while (std::getline(text, line, ',')) v.push_back(std::stod(line));
+    ASSERT_EQ(v.size(), 15u);
+    const Eigen::Matrix3d world_from_gl = Turn(Eigen::Vector3d::UnitZ(), -v[3]) *
+                                          Turn(Eigen::Vector3d::UnitX(), v[4]) *
+                                          Turn(Eigen::Vector3d::UnitY(), v[5]);
+    const double focal = v[6] / 36 * std::max(camera.width_px, camera.height_px);
+    for (const Eigen::Vector3d& place : PlacesBefore(camera)) {
+      const Eigen::Vector3d in_gl =
+          world_from_gl.transpose() * (place - Eigen::Vector3d(v[0], v[1], v[2]));
+      const Eigen::Vector2d pixel(camera.width_px / 2.0 + focal * in_gl.x() / -in_gl.z(),
+                                  camera.height_px / 2.0 - focal * in_gl.y() / -in_gl.z());
+      EXPECT_LT((pixel - *Project(camera, place)).norm(), kSamePx);
+    }
+    for (size_t i = 7; i < 15; ++i) EXPECT_EQ(v[i], 0);
+  }
+}
+
+TEST(RealityCaptureCsv, AnExportOfItsOwnHasTheseAngles) {
+  // One camera as its XMP and its table had it (its maker's forum, thread 710449).
+  Camera camera = OffCentreCamera();
+  Eigen::Matrix3d& r = camera.cam_from_world.rotation;
+  r.row(0) << 0.982594073038806, 0.185426733553445, -0.0112166890261935;
+  r.row(1) << -0.032113633044729, 0.11008102707942, -0.993403685341366;
+  r.row(2) = r.row(0).cross(r.row(1));
+  const HeadingPitchRoll angles = HeadingPitchRollOf(camera);
+  EXPECT_NEAR(angles.heading_deg, 163.736597399311, 1e-9);
+  EXPECT_NEAR(angles.pitch_deg, 83.4154313461628, 1e-9);
+  EXPECT_NEAR(angles.roll_deg, 174.386496244756, 1e-9);
+}
+
 TEST(ColmapBinary, IsWhatTheTextModelSays) {
   const TemporaryFolder folder;
   ExchangeScene scene = SceneOf(LensCamera());
@@ -291,17 +340,21 @@ TEST(ColmapBinary, ColmapItselfGivesTheTextBack) {
 
 TEST(CameraFormats, DamagedFilesAreErrorsWithTheirPlace) {
   const TemporaryFolder folder;
-  EXPECT_THAT(ThrownMessage([&] { ReadNerfstudio(folder.Write("a.json", "{\"frames\": [{}]}")); }),
-              HasSubstr("a.json: is not as nerfstudio writes transforms.json"));
-  EXPECT_THAT(ThrownMessage([&] { ReadFspy(folder.Write("a.fspy", "fspy")); }),
-              HasSubstr("does not begin with fspy"));
-  EXPECT_THAT(ThrownMessage([&] { ReadMeshLab(folder.Write("a.mlp", "<a>\n<MLRaster/></a>")); }),
+  const auto message = [&](const char* name, const std::string& text) {
+    return ThrownMessage([&] { ReadExchangeSource(folder.Write(name, text), {}); });
+  };
+  EXPECT_THAT(message("a.json", "{\"frames\": [{}]}"),
+              HasSubstr("a.json: frame 1: has no file_path"));
+  EXPECT_THAT(message("a.json", "{\"frames\":\n [}"),
+              HasSubstr("a.json: is not as nerfstudio writes transforms.json: line 2, column 3: "
+                        "unexpected '}'"));
+  EXPECT_THAT(message("a.json", "{}"), HasSubstr("'frames' is missing"));
+  EXPECT_THAT(message("a.fspy", "fspy"), HasSubstr("does not begin with fspy"));
+  EXPECT_THAT(message("a.mlp", "<a>\n<MLRaster/></a>"),
               HasSubstr("a.mlp:2: <MLRaster> has no <VCGCamera>"));
-  EXPECT_THAT(ThrownMessage([&] {
-                ReadMetashape(folder.Write(
-                    "a.xml", "<a>\n<camera sensor_id='7'><transform>1 2</transform></camera></a>"));
-              }),
-              HasSubstr("a.xml:2: <camera> names a sensor that is not there"));
+  EXPECT_THAT(
+      message("a.xml", "<a>\n<camera sensor_id='7'><transform>1 2</transform></camera></a>"),
+      HasSubstr("a.xml:2: <camera> names a sensor that is not there"));
   EXPECT_THAT(ThrownMessage([&] { ReadXml(folder.Write("b.xml", "<a>\n<b></a>")); }),
               HasSubstr("b.xml:2: </a> ends <b>"));
   EXPECT_THAT(ThrownMessage([&] { ReadXml(folder.Write("c.xml", "<a>&what;</a>")); }),

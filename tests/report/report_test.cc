@@ -3,6 +3,7 @@
 #include "report/report.h"
 
 #include "report/embedded_picture.h"
+#include "report/model_modes.h"
 #include "report/report_data.h"
 #include "report/report_text.h"
 #include "scene/error.h"
@@ -16,6 +17,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
 
 namespace groundglass {
 namespace {
@@ -233,6 +237,67 @@ TEST_F(ReportOf, ThePlanEnlargesCorrectionsAndSaysHowMuch) {
   EXPECT_THAT(html, HasSubstr("<svg class=\"plan\""));
   EXPECT_THAT(html, HasSubstr("aria-label=\"s1, accepted\""));
   EXPECT_THAT(html, HasSubstr("<ellipse "));
+}
+
+// The number behind a word.
+double NumberAfter(const std::string& text, const std::string& word, size_t from = 0) {
+  const size_t at = text.find(word, from);
+  EXPECT_NE(at, std::string::npos) << word;
+  return at == std::string::npos ? 0 : std::stod(text.substr(at + word.size()));
+}
+
+TEST_F(ReportOf, ThePlanHoldsItsEllipses) {
+  WriteRegistrations();
+  std::vector<Registration> registrations = ReadRegistrations(folder_ / "registration.json");
+  // At the plan's southern end, and least known towards there.
+  registrations[0].covariance(0, 0) = 0.01;
+  registrations[0].covariance(1, 1) = 0.16;
+  registrations[1].measured.position_in_site =
+      registrations[1].corrected.position_in_site = {10, 0, 0};
+  WriteFileAtomically(folder_ / "registration.json", FormatRegistrations(registrations));
+  const std::string html = MakeReport(folder_);
+  const size_t plan = html.find("class=\"plan\" viewBox=\"0 0 ");
+  ASSERT_NE(plan, std::string::npos);
+  double width = 0;
+  double height = 0;
+  ASSERT_EQ(
+      std::sscanf(html.c_str() + plan, "class=\"plan\" viewBox=\"0 0 %lf %lf", &width, &height), 2);
+  const size_t ellipse = html.find("<ellipse ", plan);
+  const double reach = NumberAfter(html, "rx=\"", ellipse);
+  EXPECT_GT(reach, 50);  // more than the plan's margin
+  EXPECT_LE(NumberAfter(html, "cy=\"", ellipse) + reach, height);
+  EXPECT_EQ(std::abs(NumberAfter(html, "rotate(", ellipse)), 90);
+}
+
+TEST_F(ReportOf, ThePagesNumbersAreThinnedAndCannotEndTheScriptThatHoldsThem) {
+  EXPECT_EQ(ModelModesJson(folder_, 1000000), "");
+  Image16 numbers(3000, 10, 1);
+  for (uint16_t& number : numbers.values) number = 300;
+  WriteLabels(folder_ / "provenance_0.png", numbers);
+  WriteFileAtomically(folder_ / "faces/s10.png", "");
+  WriteFileAtomically(folder_ / "faces/s2<!--.png", "");
+  const std::string json = ModelModesJson(folder_, 1000000);
+  EXPECT_EQ(json.find('<'), std::string::npos);
+  EXPECT_THAT(json, HasSubstr(R"("names":["s2\u003c!--","s10"])"));
+  // 1000 x 3 pixels of one colour.
+  EXPECT_LT(json.size(), 3000u);
+  EXPECT_EQ(ModelModesJson(folder_, 10), "");
+}
+
+TEST_F(ReportOf, WhatHasNoTagAndWhatIsOutOfReachIsSaid) {
+  WriteRegistrations();
+  WriteCoverage();
+  Scene scene;
+  scene.folder = folder_;
+  scene.model = MakeWall(4, 3, MakePlainPage(8, 8, 1, 2, 3)).model;
+  scene.model.unit = LengthUnit::kMetre;
+  EXPECT_THAT(MakeReport(folder_, &scene),
+              HasSubstr("5 m above the model\u2019s foot (with a drone"));
+  scene.model.unit = LengthUnit::kFoot;  // a person with a pole reaches five feet
+  scene.untagged_images = {folder_ / "images/s7.jpg", folder_ / "images/s8.jpg"};
+  const std::string html = MakeReport(folder_, &scene);
+  EXPECT_THAT(html, Not(HasSubstr("drone")));
+  EXPECT_THAT(html, HasSubstr("s7.jpg, s8.jpg have no tag and so no part in this"));
 }
 
 TEST_F(ReportOf, WhatNeedsAPersonComesFirst) {

@@ -93,6 +93,17 @@ async function picture(page, name, options = {}) {
       { timeout: 30000 }, second);
     expect("and by the keyboard", true, await where());
     await picture(page, "model");
+    for (const mode of (await page.$("#model_mode")) ? ["which", "seen", "photographed"] : []) {
+      const before = await canvas.screenshot();
+      await page.select("#model_mode", mode);
+      await page.waitForFunction((wanted) =>
+        document.getElementById("model").dataset.mode === wanted, { timeout: 60000 }, mode);
+      await new Promise((done) => setTimeout(done, 1500));
+      const after = await canvas.screenshot();
+      const legend = await page.$eval("#model_legend", (element) => element.children.length);
+      expect("the model coloured by " + mode, !before.equals(after), legend + " in the legend");
+      await picture(page, "model_" + mode);
+    }
   }
   await page.close();
 }
@@ -121,6 +132,38 @@ async function picture(page, name, options = {}) {
     const at = await page.$eval(".wipe", (element) => element.style.getPropertyValue("--at"));
     expect("a wipe follows a finger", parseFloat(at) > 65, at);
     await picture(page, "telephone_wipe");
+  }
+  if ((await page.evaluate(() => document.documentElement.dataset.model)) === "1") {
+    const canvas = await page.$("#model");
+    await canvas.scrollIntoView();
+    await new Promise((done) => setTimeout(done, 300));
+    const box = await canvas.boundingBox();
+    const where = () => page.$eval("#model", (element) => element.dataset.camera);
+    const distance = () => page.$eval("#model", (element) => Number(element.dataset.distance));
+    const moved = async (old) => {
+      await page.waitForFunction((was) => document.getElementById("model").dataset.camera !== was,
+        { timeout: 30000 }, old);
+      return where();
+    };
+    const x = box.x + box.width / 2;
+    const y = box.y + box.height / 2;
+    const first = await where();
+    await page.touchscreen.touchStart(x, y);
+    for (let i = 1; i <= 4; ++i) await page.touchscreen.touchMove(x + 20 * i, y);
+    await page.touchscreen.touchEnd();
+    const second = await moved(first);
+    expect("the model turns by a finger", first !== second, second);
+    const far = await distance();
+    const client = await page.createCDPSession();
+    const fingers = (type, apart) => client.send("Input.dispatchTouchEvent", { type,
+      touchPoints: apart === 0 ? [] : [{ x: x - apart, y, id: 1 }, { x: x + apart, y, id: 2 }] });
+    await fingers("touchStart", 40);
+    for (let i = 1; i <= 5; ++i) await fingers("touchMove", 40 + 14 * i);
+    await fingers("touchEnd", 0);
+    await moved(second);
+    expect("two fingers bring it nearer", (await distance()) < 0.8 * far,
+      far + " to " + (await distance()));
+    await picture(page, "telephone_model");
   }
   await page.close();
 }

@@ -41,6 +41,14 @@ TEST(ConvertModel, OsuToObjAndBackIsTheSameModel) {
 TEST(ConvertModel, RefusesFormatsThatItCannotWrite) {
   EXPECT_THAT(ThrownMessage([] { ConvertModel(kBrick / "model.osu", "m.ply", {}); }),
               HasSubstr("m.ply: a model is written as .osu, .obj or .glb"));
+  const TemporaryFolder folder;
+  EXPECT_THAT(ThrownMessage([&] { ConvertModel(folder / "no.obj", "m.ply", {}); }),
+              HasSubstr("no.obj: no such model file"));
+  EXPECT_THAT(ThrownMessage([&] { ConvertModel(folder.Write("a.txt", "?"), "m.ply", {}); }),
+              HasSubstr("a.txt: this kind of model is not read"));
+  const auto model = folder.Write("a.osu", ReadTextFile(kBrick + "/model.osu"));
+  EXPECT_THAT(ThrownMessage([&] { ConvertModel(model, folder.path() / "./a.osu", {}); }),
+              HasSubstr("would be written over the input itself"));
 }
 
 }  // namespace

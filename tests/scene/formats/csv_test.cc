@@ -100,5 +100,11 @@ TEST(Csv, FaultsNameTheLine) {
   EXPECT_TRUE(Table("\n \n").header().empty());
 }
 
+TEST(CsvField, IsQuotedWhereItMustBe) {
+  EXPECT_EQ(CsvField("tower, north"), "\"tower, north\"");
+  EXPECT_EQ(CsvField("the \"old\" wall"), "\"the \"\"old\"\" wall\"");
+  EXPECT_EQ(CsvField("plain"), "plain");
+}
+
 }  // namespace
 }  // namespace groundglass
