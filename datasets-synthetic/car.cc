@@ -196,7 +196,7 @@ void AddEndTrim(const Car& car, double facing) {
   // The bumper, a bar that stands out.
   const double tip = facing * 8.0;
   const double base = facing * 7.5;
-  const auto bar = [&](std::vector<Eigen::Vector3d> corners) {
+  const auto bar = [&](const std::vector<Eigen::Vector3d>& corners) {
     car.Add(corners, Material::kPlain, kRubber);
   };
   bar({car.At(tip, -2.75, 1.25),

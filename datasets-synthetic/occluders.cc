@@ -41,13 +41,13 @@ Eigen::Vector2d PlaceAround(const OccluderSite& site, Draws& draws, double low, 
 }  // namespace
 
 const std::vector<std::pair<int, std::string>>& OccluderNames() {
-  static const std::vector<std::pair<int, std::string>> kNames = {{kPerson, "person"},
-                                                                  {kTree, "tree"},
-                                                                  {kSign, "sign"},
-                                                                  {kLamp, "lamp"},
-                                                                  {kCar, "car"},
-                                                                  {kMount, "slide mount"}};
-  return kNames;
+  static const std::vector<std::pair<int, std::string>> names = {{kPerson, "person"},
+                                                                 {kTree, "tree"},
+                                                                 {kSign, "sign"},
+                                                                 {kLamp, "lamp"},
+                                                                 {kCar, "car"},
+                                                                 {kMount, "slide mount"}};
+  return names;
 }
 
 void AddStandingOccluders(WorldBuilder& builder,

@@ -34,7 +34,7 @@ PhotographPlan PlanPhotograph(const PlannedView& view, const SynthRecipe& recipe
 
   plan.num_specks = static_cast<int>(2 * recipe.slide.specks * UniformOf(HashOf(slide_seed, 5)));
   plan.num_scratches =
-      static_cast<int>(2 * recipe.slide.scratches * UniformOf(HashOf(slide_seed, 6)) + 0.5);
+      static_cast<int>(std::lround(2 * recipe.slide.scratches * UniformOf(HashOf(slide_seed, 6))));
 
   const uint64_t photo_seed = SeedFor(recipe.seed, "photo", index);
   const auto photo_normal = [&](int which) { return NormalOf(HashOf(photo_seed, which)); };

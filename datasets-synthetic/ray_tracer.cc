@@ -252,7 +252,9 @@ class PathTracer {
     if (probe.face == kSky) return SkyRadiance(scene_.light, rays.Direction(0.5, 0.5));
     Rgb sum = Rgb::Zero();
     for (int i = 0; i < 4; ++i) {
-      const Eigen::Vector3d direction = rays.Direction(0.25 + 0.5 * (i % 2), 0.25 + 0.5 * (i / 2));
+      const int column = i % 2;
+      const int row = i / 2;
+      const Eigen::Vector3d direction = rays.Direction(0.25 + 0.5 * column, 0.25 + 0.5 * row);
       sum += shader_.Shade(rays,
                            probe.face,
                            direction,
@@ -268,8 +270,9 @@ class PathTracer {
     Rgb sum = Rgb::Zero();
     for (int i = 0; i < cells_ * cells_; ++i) {
       const uint64_t hash = HashOf(seed_, x, y, i);
-      const Eigen::Vector3d direction = rays.Direction(
-          (i % cells_ + UniformOf(hash)) / cells_, (i / cells_ + UniformOf(HashOf(hash))) / cells_);
+      const int row = i / cells_;
+      const Eigen::Vector3d direction = rays.Direction((i % cells_ + UniformOf(hash)) / cells_,
+                                                       (row + UniformOf(HashOf(hash))) / cells_);
       const auto hit = scene_.visibility.FirstHit(origin_, direction);
       if (!hit) {
         sum += SkyRadiance(scene_.light, direction);

@@ -47,9 +47,11 @@ cv::Mat KernelOf(double reach_px, const Inside& is_inside) {
   for (int y = -half; y <= half; ++y) {
     for (int x = -half; x <= half; ++x) {
       int count = 0;
-      for (int i = 0; i < kSamplesAcross * kSamplesAcross; ++i) {
-        count += is_inside(x + (i % kSamplesAcross + 0.5) / kSamplesAcross - 0.5,
-                           y + (i / kSamplesAcross + 0.5) / kSamplesAcross - 0.5);
+      for (int j = 0; j < kSamplesAcross; ++j) {
+        for (int i = 0; i < kSamplesAcross; ++i) {
+          count +=
+              is_inside(x + (i + 0.5) / kSamplesAcross - 0.5, y + (j + 0.5) / kSamplesAcross - 0.5);
+        }
       }
       kernel.at<float>(y + half, x + half) = static_cast<float>(count);
     }
@@ -156,7 +158,7 @@ Image8 QuantiseSrgb8(const ImageF& encoded) {
   Image8 srgb8(encoded.width, encoded.height, encoded.channels);
   std::transform(
       encoded.values.begin(), encoded.values.end(), srgb8.values.begin(), [](float value) {
-        return static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f);
+        return static_cast<uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));
       });
   return srgb8;
 }

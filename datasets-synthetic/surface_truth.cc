@@ -153,7 +153,8 @@ class ChartPainter {
     Appearance mean;
     for (int i = 0; i < 4; ++i) {
       const double at_column = column + 0.25 + 0.5 * (i % 2);
-      const double at_row = row + 0.25 + 0.5 * (i / 2);
+      const int half = i / 2;
+      const double at_row = row + 0.25 + 0.5 * half;
       int face = chart_.face;
       Eigen::Vector3d point = chart_.PointInWorld(at_column, at_row);
       if (!is_in_plane) {
