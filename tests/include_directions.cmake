@@ -19,7 +19,7 @@ set(may_include_drawing scene viewer)
 set(may_include_exchange scene)
 set(may_include_report scene)
 set(may_include_pipeline scene calibrate register invrender viewer report)
-set(may_include_datasets-synthetic scene)
+set(may_include_datasets-synthetic scene calibrate)
 set(may_include_evaluate scene calibrate register invrender viewer datasets-synthetic)
 set(may_include_cli scene calibrate register ask session invrender viewer gui drawing exchange report pipeline datasets-synthetic
     evaluate)
