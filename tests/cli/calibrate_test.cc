@@ -125,6 +125,11 @@ TEST(Calibrate, AMissingSurveyAndAFolderWithoutScansSayWhatIsExpected) {
   const ProgramRun folder = RunProgram({"calibrate", "frame", (work / "scene/images").string()});
   EXPECT_EQ(folder.status, 0) << folder.err;
   EXPECT_THAT(folder.out, HasSubstr("s3: nothing, since"));
+  // Heights from a grid that is not there.
+  const ProgramRun geoid =
+      RunProgram({"calibrate", "lens", (work / "scene").string(), "--geoid", "egm96-5"});
+  EXPECT_EQ(geoid.status, 1);
+  EXPECT_THAT(geoid.err, HasSubstr("--geoid egm96-5: the model does not say where it stands"));
 }
 
 }  // namespace
