@@ -6,6 +6,7 @@
 #include "scene/srgb.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -27,8 +28,30 @@ constexpr int kMinCrossings = 6;
 // Crossings farther than this many spreads from the line are dirt or a finger.
 constexpr double kOutlierSpreads = 3.5;
 
+// A picture's values in linear light. Codes are turned into light where they are looked at: few of
+// a photograph's pixels are.
+class LinearPicture {
+ public:
+  explicit LinearPicture(const ImageF& radiance)
+      : width(radiance.width), height(radiance.height), radiance_(&radiance) {}
+  explicit LinearPicture(const Image8& srgb)
+      : width(srgb.width), height(srgb.height), srgb_(&srgb) {}
+
+  double At(int x, int y) const {
+    return radiance_ != nullptr ? *radiance_->At(x, y) : linear_[*srgb_->At(x, y)];
+  }
+
+  const int width;
+  const int height;
+
+ private:
+  const ImageF* radiance_ = nullptr;
+  const Image8* srgb_ = nullptr;
+  const std::array<float, 256>& linear_ = LinearOfSrgb8();
+};
+
 // Bilinear value; the first pixel's centre is at (0.5, 0.5). Nothing outside the frame.
-std::optional<double> Sample(const ImageF& grey, const Eigen::Vector2d& at_px) {
+std::optional<double> Sample(const LinearPicture& grey, const Eigen::Vector2d& at_px) {
   const double x = at_px.x() - 0.5;
   const double y = at_px.y() - 0.5;
   const int x0 = static_cast<int>(std::floor(x));
@@ -36,14 +59,13 @@ std::optional<double> Sample(const ImageF& grey, const Eigen::Vector2d& at_px) {
   if (x0 < 0 || y0 < 0 || x0 + 1 >= grey.width || y0 + 1 >= grey.height) return std::nullopt;
   const double u = x - x0;
   const double v = y - y0;
-  const float* top = grey.At(x0, y0);
-  const float* bottom = grey.At(x0, y0 + 1);
-  return (1 - v) * ((1 - u) * top[0] + u * top[1]) + v * ((1 - u) * bottom[0] + u * bottom[1]);
+  return (1 - v) * ((1 - u) * grey.At(x0, y0) + u * grey.At(x0 + 1, y0)) +
+         v * ((1 - u) * grey.At(x0, y0 + 1) + u * grey.At(x0 + 1, y0 + 1));
 }
 
 // How far along `outward` (unit length, pixels) from `at_px` black turns into white: the place
 // where an ideal step would have the same area under it as the profile seen.
-std::optional<double> FindCrossing(const ImageF& grey,
+std::optional<double> FindCrossing(const LinearPicture& grey,
                                    const Eigen::Vector2d& at_px,
                                    const Eigen::Vector2d& outward,
                                    double reach_px) {
@@ -128,22 +150,10 @@ std::optional<EdgeLine> FitLine(std::vector<Eigen::Vector2d> points,
   }
 }
 
-}  // namespace
-
-ImageF LinearFromGrey(const Image8& srgb_grey) {
-  const std::array<float, 256>& linear = LinearOfSrgb8();
-  ImageF radiance(srgb_grey.width, srgb_grey.height, 1);
-  std::transform(srgb_grey.values.begin(),
-                 srgb_grey.values.end(),
-                 radiance.values.begin(),
-                 [&linear](uint8_t code) { return linear[code]; });
-  return radiance;
-}
-
-std::optional<AprilTagCorners> MeasureAprilTagCorners(const ImageF& radiance_grey,
-                                                      const AprilTagDetection& start,
-                                                      double gap_share,
-                                                      const Camera& lens) {
+std::optional<AprilTagCorners> MeasureCorners(const LinearPicture& grey,
+                                              const AprilTagDetection& start,
+                                              double gap_share,
+                                              const Camera& lens) {
   // Undistorted pixels: normalised coordinates at the focal length's scale.
   const auto undistort = [&lens](const Eigen::Vector2d& image_px) -> Eigen::Vector2d {
     const Eigen::Vector3d ray = UnprojectToCam(lens, image_px);
@@ -170,7 +180,7 @@ std::optional<AprilTagCorners> MeasureAprilTagCorners(const ImageF& radiance_gre
     std::vector<Eigen::Vector2d> crossings;
     for (double s = end_px; s <= length_px - end_px; s += 1) {
       const Eigen::Vector2d on_edge = from + s * along;
-      if (const auto crossing = FindCrossing(radiance_grey, on_edge, outward, reach_px)) {
+      if (const auto crossing = FindCrossing(grey, on_edge, outward, reach_px)) {
         crossings.push_back(undistort(on_edge + *crossing * outward));
       }
     }
@@ -208,6 +218,22 @@ std::optional<AprilTagCorners> MeasureAprilTagCorners(const ImageF& radiance_gre
   result.information =
       (corners_from_ends * end_covariance * corners_from_ends.transpose()).inverse();
   return result;
+}
+
+}  // namespace
+
+std::optional<AprilTagCorners> MeasureAprilTagCorners(const ImageF& radiance_grey,
+                                                      const AprilTagDetection& start,
+                                                      double gap_share,
+                                                      const Camera& lens) {
+  return MeasureCorners(LinearPicture(radiance_grey), start, gap_share, lens);
+}
+
+std::optional<AprilTagCorners> MeasureAprilTagCorners(const Image8& srgb_grey,
+                                                      const AprilTagDetection& start,
+                                                      double gap_share,
+                                                      const Camera& lens) {
+  return MeasureCorners(LinearPicture(srgb_grey), start, gap_share, lens);
 }
 
 }  // namespace groundglass

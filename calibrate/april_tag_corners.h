@@ -21,9 +21,6 @@ struct AprilTagCorners {
   Eigen::Matrix<double, 8, 8> information;
 };
 
-// 8-bit sRGB grey as linear light, in which corners are measured.
-ImageF LinearFromGrey(const Image8& srgb_grey);
-
 // Measures an AprilTag's corners in linear light as the meeting points of its four black edges.
 // Each edge is a straight line fitted through its subpixel crossings after the lens' distortion is
 // taken out (`lens`: intrinsics only), which keeps blur and rounding at the corners out of it;
@@ -31,6 +28,11 @@ ImageF LinearFromGrey(const Image8& srgb_grey);
 // `gap_share`: the white gap beside the AprilTag, as a share of the AprilTag's size.
 // Nothing if the AprilTag is too small, leaves the frame, or an edge is hidden.
 std::optional<AprilTagCorners> MeasureAprilTagCorners(const ImageF& radiance_grey,
+                                                      const AprilTagDetection& start,
+                                                      double gap_share,
+                                                      const Camera& lens);
+// The same in 8-bit sRGB grey, whose codes are turned into light first.
+std::optional<AprilTagCorners> MeasureAprilTagCorners(const Image8& srgb_grey,
                                                       const AprilTagDetection& start,
                                                       double gap_share,
                                                       const Camera& lens);

@@ -8,12 +8,12 @@
 #include "calibrate/board_solve.h"
 #include "scene/error.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -27,15 +27,9 @@ constexpr double kMaxStartMisfit = 0.1;
 // Sharp photographs of a flat board fit better than this (pixels).
 constexpr double kGoodRmsPx = 0.4;
 
-std::string Format(const char* format, double value) {
-  std::array<char, 160> text;
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
-
 // Measures every detected AprilTag of the board, its corners taken as straight in `lens`.
 std::vector<AprilTagCorners> MeasureShot(const Board& board,
-                                         const ImageF& radiance_grey,
+                                         const Image8& srgb_grey,
                                          const std::vector<AprilTagDetection>& detections,
                                          const Camera& lens) {
   std::vector<AprilTagCorners> april_tags;
@@ -43,7 +37,7 @@ std::vector<AprilTagCorners> MeasureShot(const Board& board,
     const int index = detection.id - board.first_id;
     if (index < 0 || index >= board.columns * board.rows) continue;
     auto corners =
-        MeasureAprilTagCorners(radiance_grey, detection, board.gap / board.april_tag_size, lens);
+        MeasureAprilTagCorners(srgb_grey, detection, board.gap / board.april_tag_size, lens);
     if (!corners) continue;
     corners->id = index;
     april_tags.push_back(*corners);
@@ -95,7 +89,7 @@ void CheckFit(double rms_px,
               const std::vector<std::vector<AprilTagDetection>>& detections) {
   if (rms_px <= max_rms_px) return;
   const std::string text = DescribeSeenBoard(board, detections);
-  throw Error("calibrate board: the corners miss the board by " + Format("%.1f", rms_px) +
+  throw Error("calibrate board: the corners miss the board by " + fmt::format("{:.1f}", rms_px) +
               " px; check columns, rows, tag size and gap, and that the board is flat" +
               (text.empty() ? "" : "; ") + text);
 }
@@ -150,27 +144,27 @@ std::vector<std::string> Remarks(const std::vector<BoardShot>& shots,
   reach /= center_px.norm();
   if (solution.rms_px > kGoodRmsPx) {
     remarks.push_back(
-        Format("the corners miss the board by %.2f px, where a flat and well measured "
-               "one is good to 0.1: measure the tag size and the gap again",
-               solution.rms_px));
+        fmt::format("the corners miss the board by {:.2f} px, where a flat and well measured "
+                    "one is good to 0.1: measure the tag size and the gap again",
+                    solution.rms_px));
   }
   if (reach < 0.75) {
     remarks.push_back(
-        Format("the board reaches only %.0f %% of the way to the frame's corners: "
-               "beyond that, k1 is a guess",
-               100 * reach));
+        fmt::format("the board reaches only {:.0f} % of the way to the frame's corners: "
+                    "beyond that, k1 is a guess",
+                    100 * reach));
   }
   if (DegreesFromRadians(tilt_rad) < 15) {
     remarks.push_back(
-        Format("the board is turned by %.0f degrees at most: 20 to 45 would tell the "
-               "view angle better",
-               DegreesFromRadians(tilt_rad)));
+        fmt::format("the board is turned by {:.0f} degrees at most: 20 to 45 would tell the "
+                    "view angle better",
+                    DegreesFromRadians(tilt_rad)));
   }
   if (lens.sigma_view_angle_deg > 0.01 * lens.view_angle_deg) {
     remarks.push_back(
-        Format("the view angle is known to %.1f %% only: more photographs, from more "
-               "sides",
-               100 * lens.sigma_view_angle_deg / lens.view_angle_deg));
+        fmt::format("the view angle is known to {:.1f} % only: more photographs, from more "
+                    "sides",
+                    100 * lens.sigma_view_angle_deg / lens.view_angle_deg));
   }
   return remarks;
 }
@@ -230,8 +224,7 @@ std::vector<BoardShot> MeasureShots(std::span<const BoardPhotograph> photographs
   const Camera straight = CameraFromLensVector(no_lens, width_px, height_px);
   std::vector<std::vector<AprilTagCorners>> april_tags(photographs.size());
   tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
-    april_tags[i] =
-        MeasureShot(board, LinearFromGrey(photographs[i].srgb_grey), detections[i], straight);
+    april_tags[i] = MeasureShot(board, photographs[i].srgb_grey, detections[i], straight);
   });
   std::vector<BoardShot> shots;
   for (size_t i = 0; i < photographs.size(); ++i) {
@@ -255,7 +248,7 @@ void MeasureAgain(std::span<const BoardPhotograph> photographs,
                   std::vector<BoardShot>& shots) {
   tbb::parallel_for(size_t{0}, shots.size(), [&](size_t i) {
     shots[i].april_tags = MeasureShot(board,
-                                      LinearFromGrey(photographs[shots[i].photograph].srgb_grey),
+                                      photographs[shots[i].photograph].srgb_grey,
                                       PredictDetections(board, shots[i], found),
                                       found);
   });

@@ -239,7 +239,6 @@ std::vector<SeenTag> FindSeenTags(const Image8& srgb_grey,
                                   const Camera& lens,
                                   const TagsOptions& options) {
   std::vector<SeenTag> seen;
-  const ImageF radiance = LinearFromGrey(srgb_grey);
   for (const AprilTagDetection& detection : DetectAprilTags(srgb_grey)) {
     const auto place = std::find_if(surveyed.begin(), surveyed.end(), [&](const SurveyedTag& tag) {
       return tag.id == detection.id;
@@ -247,7 +246,7 @@ std::vector<SeenTag> FindSeenTags(const Image8& srgb_grey,
     if (place == surveyed.end()) continue;
     SeenTag tag;
     tag.place = *place;
-    if (const auto measured = MeasureAprilTagCorners(radiance, detection, kWhiteBeside, lens)) {
+    if (const auto measured = MeasureAprilTagCorners(srgb_grey, detection, kWhiteBeside, lens)) {
       tag.corners_px = measured->corners_px;
       tag.root_information =
           Eigen::LLT<Eigen::Matrix<double, 8, 8>>(measured->information).matrixU();

@@ -294,6 +294,10 @@ void FrameOptions::Check() const {
   CheckAbove(square_deg, 0, "frame options: square_deg");
   CheckAtLeast(least_aspect, 0.1, "frame options: least_aspect");
   CheckAtLeast(most_aspect, least_aspect, "frame options: most_aspect");
+  CheckAbove(mount_play, 0, "frame options: mount_play");
+  CheckAbove(least_aspect_sigma, 0, "frame options: least_aspect_sigma");
+  CheckAbove(video_aspect_sigma, 0, "frame options: video_aspect_sigma");
+  CheckAtLeast(blur_px, 0, "frame options: blur_px");
   if (aspect) CheckFromTo(*aspect, 0.1, 10, "aspect");
 }
 

@@ -29,6 +29,14 @@ struct FrameOptions {
   // Width / height of what the mount shows, whichever side is up; outside of these it is no frame.
   double least_aspect = 0.95;
   double most_aspect = 1.75;
+  // What is not known of the film behind the opening (36 mm x 24 mm behind 35 mm x 23 mm), of the
+  // width, and of the opening's aspect at best, a share; one standard deviation each.
+  double mount_play = 0.008;
+  double least_aspect_sigma = 0.002;
+  // The same of a television frame's aspect, whose raster cards differ in where a line begins.
+  double video_aspect_sigma = 0.005;
+  // The border's blur, which a crop's mask covers as well; pixels.
+  double blur_px = 2;
   // Of what is seen, where one side lies outside of the scan: it then tells the missing one.
   std::optional<double> aspect;
 

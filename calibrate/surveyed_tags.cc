@@ -8,6 +8,8 @@
 #include "scene/frames.h"
 #include "scene/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +20,9 @@ namespace groundglass {
 namespace {
 
 constexpr double kSurveySigma_m = 0.01;
+constexpr const char* kExpectedColumns =
+    "expected the columns id,x,y,z,nx,ny,nz,size, or id and x1,y1,z1 to x4,y4,z4, and sigma if it "
+    "is known";
 // A tag's corners lie this near to a square's, as a share of its side.
 constexpr double kSquareShare = 0.03;
 
@@ -28,7 +33,10 @@ constexpr std::array<std::array<double, 2>, 4> kCornerPlaces = {
 class SurveyReader {
  public:
   SurveyReader(const std::filesystem::path& file, LengthUnit unit)
-      : file_(file), csv_(file), default_sigma_(kSurveySigma_m / MetresPerUnit(unit)) {
+      : file_(file),
+        csv_(Present(file), &faults_),
+        default_sigma_(kSurveySigma_m / MetresPerUnit(unit)) {
+    if (csv_.header().empty()) throw Error(file_, std::string("it is empty; ") + kExpectedColumns);
     const std::vector<std::string>& names = csv_.header();
     for (size_t i = 0; i < names.size(); ++i) {
       if (!IsColumn(names[i])) {
@@ -49,28 +57,46 @@ class SurveyReader {
     std::vector<SurveyedTag> tags;
     for (const CsvRow& row : csv_.rows()) {
       row_ = &row;
-      SurveyedTag tag;
-      tag.id = ReadId();
-      if (lines_of_id_.count(tag.id) > 0) {
-        Fail("tag " + std::to_string(tag.id) + " stands on line " +
-             std::to_string(lines_of_id_[tag.id]) + " already");
+      try {
+        if (!row.fault.empty()) Fail(row.fault);
+        tags.push_back(ReadRow());
+      } catch (const Error& error) {
+        faults_.push_back(error.what());
       }
-      lines_of_id_[tag.id] = row.line;
-      tag.corners_in_world = has_corners_ ? ReadCorners() : CornersFromMiddle();
-      tag.sigma = HasField("sigma") ? Number("sigma") : default_sigma_;
-      if (!(tag.sigma > 0)) Fail("sigma: a standard deviation must be above 0");
-      tags.push_back(tag);
     }
-    if (tags.empty()) throw Error(file_, "there is no tag in it");
+    if (!faults_.empty()) throw Error(fmt::format("{}", fmt::join(faults_, "\n")));
+    if (tags.empty()) throw Error(file_, std::string("there is no tag in it; ") + kExpectedColumns);
     return tags;
   }
 
  private:
+  static const std::filesystem::path& Present(const std::filesystem::path& file) {
+    if (std::filesystem::exists(file)) return file;
+    throw Error(file,
+                std::string("no such file: the tags' survey is needed, a table with a line for "
+                            "each tag (or give --tags FILE); ") +
+                    kExpectedColumns);
+  }
+
   static bool IsColumn(const std::string& name) {
     constexpr std::array<const char*, 9> kNames = {
         "id", "x", "y", "z", "nx", "ny", "nz", "size", "sigma"};
     if (std::find(kNames.begin(), kNames.end(), name) != kNames.end()) return true;
     return name.size() == 2 && name[0] >= 'x' && name[0] <= 'z' && name[1] >= '1' && name[1] <= '4';
+  }
+
+  SurveyedTag ReadRow() {
+    SurveyedTag tag;
+    tag.id = ReadId();
+    if (lines_of_id_.count(tag.id) > 0) {
+      Fail("tag " + std::to_string(tag.id) + " stands on line " +
+           std::to_string(lines_of_id_[tag.id]) + " already");
+    }
+    lines_of_id_[tag.id] = row_->line;
+    tag.corners_in_world = has_corners_ ? ReadCorners() : CornersFromMiddle();
+    tag.sigma = HasField("sigma") ? Number("sigma") : default_sigma_;
+    if (!(tag.sigma > 0)) Fail("sigma: a standard deviation must be above 0");
+    return tag;
   }
 
   [[noreturn]] void Fail(const std::string& message) const {
@@ -80,11 +106,8 @@ class SurveyReader {
   void Require(std::initializer_list<const char*> names) const {
     for (const char* name : names) {
       if (columns_.count(name) > 0) continue;
-      throw Error(file_,
-                  csv_.header_line(),
-                  "column " + Quote(name) +
-                      " is missing; expected id,x,y,z,nx,ny,nz,size, or id and x1,y1,z1 to "
-                      "x4,y4,z4");
+      throw Error(
+          file_, csv_.header_line(), "column " + Quote(name) + " is missing; " + kExpectedColumns);
     }
   }
 
@@ -156,6 +179,7 @@ class SurveyReader {
   }
 
   std::filesystem::path file_;
+  std::vector<std::string> faults_;
   CsvTable csv_;
   double default_sigma_;
   std::map<std::string, size_t> columns_;

@@ -22,7 +22,8 @@ struct SurveyedTag {
 // Reads apriltags.csv (docs/calibration.md), a table as scene/formats/csv.h has it: `id`, and
 // either `x,y,z` (the middle), `nx,ny,nz` (the way it faces) and `size` (of the black square), the
 // tag standing upright, or the four corners `x1,y1,z1` to `x4,y4,z4`; `sigma` may follow. In
-// `site`, model's unit; a sigma that nobody gives is 0.01 m. Throws Error naming file and line.
+// `site`, model's unit; a sigma that nobody gives is 0.01 m. Throws Error with every fault, one
+// line each, naming file and line.
 std::vector<SurveyedTag> ReadSurveyedTags(const std::filesystem::path& file, LengthUnit unit);
 
 }  // namespace groundglass

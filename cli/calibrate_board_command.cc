@@ -8,8 +8,10 @@
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/lens.h"
+#include "scene/progress.h"
 
 #include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -118,15 +120,13 @@ int CalibrateFromPhotographs(const BoardArguments& arguments) {
         {{"lens", arguments.lens_file.string()}, {"photographs", arguments.photographs.size()}});
   }
   const Progress progress = MakeProgress(arguments.common, "reading");
-  std::vector<BoardPhotograph> photographs;
-  for (const std::filesystem::path& file : arguments.photographs) {
-    photographs.push_back({file.string(), ReadGrey8(file)});
-    if (progress) {
-      progress(static_cast<int>(photographs.size()),
-               static_cast<int>(arguments.photographs.size()),
-               file.filename().string());
-    }
-  }
+  std::vector<BoardPhotograph> photographs(arguments.photographs.size());
+  ProgressCounter steps(progress, static_cast<int>(photographs.size()));
+  tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
+    const std::filesystem::path& file = arguments.photographs[i];
+    photographs[i] = {file.string(), ReadGrey8(file)};
+    steps.Tell(file.filename().string());
+  });
   const Board board =
       arguments.target_file ? ReadKalibrTarget(*arguments.target_file) : arguments.board;
   BoardResult result = CalibrateBoard(photographs, board, arguments.options);

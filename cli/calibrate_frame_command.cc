@@ -7,6 +7,7 @@
 #include "cli/option_range.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/image_kind.h"
 #include "scene/formats/image_paths.h"
 #include "scene/frames.h"
 
@@ -29,10 +30,6 @@ struct FrameArguments {
   std::optional<fs::path> images_folder;
 };
 
-// The film's play behind the mount's opening: 36 mm x 24 mm behind 35 mm x 23 mm, one standard
-// deviation, of the width.
-constexpr double kMountPlay = 0.008;
-
 // The frame's part of a scan, its sides along the pixels: what is lost at the corners of a turned
 // one is less than resampling would lose everywhere.
 template <typename T>
@@ -50,7 +47,7 @@ Raster<T> Cropped(const Raster<T>& scan, int left, int top, int width, int heigh
 }
 
 // White where a crop shows the border; empty if it shows none.
-Image16 BorderMask(const SlideFrame& frame, int width, int height) {
+Image16 BorderMask(const SlideFrame& frame, double blur_px, int width, int height) {
   Image16 mask(width, height, 1);
   const double turn = RadiansFromDegrees(frame.turn_deg);
   bool shows_border = false;
@@ -59,8 +56,8 @@ Image16 BorderMask(const SlideFrame& frame, int width, int height) {
       const Eigen::Vector2d off(x + 0.5 - width / 2.0, y + 0.5 - height / 2.0);
       const double across = std::abs(std::cos(turn) * off.x() + std::sin(turn) * off.y());
       const double along = std::abs(-std::sin(turn) * off.x() + std::cos(turn) * off.y());
-      // The border's blur as well.
-      const bool is_border = across > frame.width_px / 2 - 2 || along > frame.height_px / 2 - 2;
+      const bool is_border =
+          across > frame.width_px / 2 - blur_px || along > frame.height_px / 2 - blur_px;
       if (is_border) *mask.At(x, y) = 65535;
       shows_border = shows_border || is_border;
     }
@@ -68,20 +65,22 @@ Image16 BorderMask(const SlideFrame& frame, int width, int height) {
   return shows_border ? mask : Image16();
 }
 
-KnownKeys KeysOfFrame(const SlideFrame& frame) {
+KnownKeys KeysOfFrame(const SlideFrame& frame, const FrameOptions& options) {
   KnownKeys keys;
   const double aspect = frame.width_px / frame.height_px;
   AddKnown(keys, "a", aspect, "the mount's opening");
-  AddKnown(keys, "sigma_a", aspect * std::max(0.002, 2 * frame.sigma_px / frame.height_px));
+  AddKnown(keys,
+           "sigma_a",
+           aspect * std::max(options.least_aspect_sigma, 2 * frame.sigma_px / frame.height_px));
   AddKnown(keys, "roll", -frame.turn_deg, "turned in the scan");
-  AddKnown(keys, "sigma_shift", kMountPlay, "the film's play in the mount");
+  AddKnown(keys, "sigma_shift", options.mount_play, "the film's play in the mount");
   return keys;
 }
 
-KnownKeys KeysOfVideo(double aspect) {
+KnownKeys KeysOfVideo(double aspect, const FrameOptions& options) {
   KnownKeys keys;
-  AddKnown(keys, "a", aspect, "a television frame's raster");
-  AddKnown(keys, "sigma_a", 0.005 * aspect);
+  AddKnown(keys, "a", aspect, "a television frame's raster; a slide squeezed into it has its own");
+  AddKnown(keys, "sigma_a", options.video_aspect_sigma * aspect);
   return keys;
 }
 
@@ -118,7 +117,7 @@ std::string WriteCrop(const FrameArguments& arguments,
   const int top = static_cast<int>(std::lround(frame.center_px.y() - frame.height_px / 2));
   const fs::path file = images / (scan.name + ".png");
   WriteSrgb8(file, Cropped(ReadSrgb8(scan.file), left, top, width, height));
-  const Image16 mask = BorderMask(frame, width, height);
+  const Image16 mask = BorderMask(frame, arguments.options.blur_px, width, height);
   if (!mask.Empty()) WriteLabels(masks / (scan.name + ".png"), mask);
   return file.string();
 }
@@ -134,12 +133,27 @@ nlohmann::ordered_json JsonFromFrame(const std::string& name, const SlideFrame& 
           {"sigma_turn_deg", frame.sigma_turn_deg}};
 }
 
+// A folder that is no scene stands for the pictures in it.
+CalibrationArguments WithPicturesOfFolder(CalibrationArguments arguments) {
+  if (arguments.inputs.size() != 1 || !fs::is_directory(arguments.inputs.front())) return arguments;
+  const fs::path folder = arguments.inputs.front();
+  if (fs::is_directory(folder / "scans") || fs::is_directory(folder / "images")) return arguments;
+  const std::vector<fs::path> files = ListImageFiles(folder);
+  if (files.empty()) {
+    throw Error(folder,
+                "no scans; expected scans/ with pictures in it (for a scene), or a folder of "
+                "pictures, or pictures");
+  }
+  arguments.inputs = files;
+  return arguments;
+}
+
 int RunCalibrateFrame(const FrameArguments& arguments) {
   const CommonOptions& common = arguments.calibration.common;
   const std::vector<fs::path>& inputs = arguments.calibration.inputs;
   const bool has_scans = inputs.size() == 1 && fs::is_directory(inputs.front() / "scans");
-  const CalibrationScene scene =
-      ReadCalibrationScene(arguments.calibration, has_scans ? "scans" : "images");
+  const CalibrationScene scene = ReadCalibrationScene(WithPicturesOfFolder(arguments.calibration),
+                                                      has_scans ? "scans" : "images");
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   size_t num_failed = 0;
   for (const CalibrationPhotograph& scan : scene.photographs) {
@@ -151,13 +165,13 @@ int RunCalibrateFrame(const FrameArguments& arguments) {
       const std::optional<double> video = VideoAspect(grey.width, grey.height);
       frame = FindSlideFrame(grey, arguments.options);
       if (frame.is_found && (has_scans || scene.scene_folder.empty())) {
-        keys = KeysOfFrame(frame);
+        keys = KeysOfFrame(frame, arguments.options);
         if (!common.dry_run) crop = WriteCrop(arguments, scene, scan, frame);
       } else if (frame.is_found) {
         frame.is_found = false;
         frame.reason = "it shows its mount; put it into scans/ in place of images/";
       } else if (video) {
-        keys = KeysOfVideo(*video);
+        keys = KeysOfVideo(*video, arguments.options);
       }
       if (!common.dry_run) WriteKnownKeys(scene, scan.name, keys, "frame");
     } catch (const Error& error) {
@@ -188,6 +202,8 @@ void AddCalibrateFrame(CLI::App* calibrate, int& exit_status) {
   CLI::App* command = calibrate->add_subcommand(
       "frame", "Slides' pictures cut from scans that show their mounts; prints from their borders");
   AddCalibrationArguments(command, arguments->calibration);
+  command->get_option("input")->description(
+      "a scene folder with scans/ in it, a folder of scans, or scans");
   command
       ->add_option("--images",
                    arguments->images_folder,

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "calibrate/geoid.h"
 #include "calibrate/photograph_place.h"
 #include "cli/calibrate_parts.h"
 #include "cli/calibration_scene.h"
 #include "cli/json_output.h"
 #include "scene/error.h"
 #include "scene/formats/metadata_lens.h"
+#include "scene/text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +23,7 @@ struct LensArguments {
   CalibrationArguments calibration;
   MetadataLensOptions lens;
   PlaceOptions place;
+  std::string geoid;  // metres, or the name of a grid
 };
 
 // What a photograph's metadata give.
@@ -59,11 +62,25 @@ nlohmann::ordered_json JsonFromFinding(const std::string& name, const LensFindin
   return {{"name", name}, {"keys", keys}, {"how", finding.how}, {"not_used", finding.unused}};
 }
 
-int CalibrateLens(const LensArguments& arguments) {
+// The sea's level at the model's origin; photographs are near it.
+double SeaLevel_m(const std::string& geoid, const std::optional<PolygonModel>& model) {
+  if (geoid.empty()) return 0;
+  if (const std::optional<double> metres = ParseNumber(geoid)) return *metres;
+  if (!model || !model->georeference) {
+    throw Error("--geoid " + geoid +
+                ": the model does not say where it stands (a comment '% origin: LATITUDE LONGITUDE "
+                "HEIGHT' in it)");
+  }
+  return SeaLevelAboveEllipsoid_m(
+      geoid, model->georeference->latitude_deg, model->georeference->longitude_deg);
+}
+
+int CalibrateLens(LensArguments arguments) {
   arguments.lens.Check();
-  arguments.place.Check();
   const CommonOptions& common = arguments.calibration.common;
   const CalibrationScene scene = ReadCalibrationScene(arguments.calibration);
+  arguments.place.geoid_m = SeaLevel_m(arguments.geoid, scene.model);
+  arguments.place.Check();
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   size_t num_failed = 0;
   for (const CalibrationPhotograph& photograph : scene.photographs) {
@@ -105,10 +122,11 @@ void AddCalibrateLens(CLI::App* calibrate, int& exit_status) {
       ->type_name("DEGREES");
   command
       ->add_option("--geoid",
-                   arguments->place.geoid_m,
+                   arguments->geoid,
                    "the sea's level above the ellipsoid there, if the model's origin is above the "
-                   "ellipsoid: photographs count from the sea")
-      ->type_name("M");
+                   "ellipsoid: photographs count from the sea; or one of GeographicLib's grids, "
+                   "egm96-5")
+      ->type_name("M|GRID");
   AddExample(command, "groundglass calibrate lens hall");
   command->callback([arguments, &exit_status] {
     exit_status =

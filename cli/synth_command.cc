@@ -25,6 +25,7 @@ struct SynthArguments {
   std::string recipe_file;
   int num_views = -1;
   int num_blunders = -1;
+  int num_april_tags = -1;
   std::string pictures;  // folder for --list
   bool list = false;
 };
@@ -69,6 +70,7 @@ int RunSynth(const SynthArguments& arguments, bool has_seed) {
   if (!arguments.size.empty()) ParseSize(arguments.size, recipe);
   if (arguments.num_views >= 0) recipe.num_views = arguments.num_views;
   if (arguments.num_blunders >= 0) recipe.notebook.blunders = arguments.num_blunders;
+  if (arguments.num_april_tags >= 0) recipe.april_tags.count = arguments.num_april_tags;
   if (has_seed) recipe.seed = arguments.common.seed;
   recipe.Check();
   if (arguments.common.dry_run) {
@@ -82,6 +84,7 @@ int RunSynth(const SynthArguments& arguments, bool has_seed) {
                                          {"faces", summary.num_faces},
                                          {"photographs", summary.num_photographs},
                                          {"novel_views", summary.num_novel_views},
+                                         {"april_tags", summary.num_april_tags},
                                          {"blunders", summary.num_blunders},
                                          {"mean_tag_error_px", summary.mean_tag_error_px}};
     std::printf("%s\n", json.dump(2).c_str());
@@ -92,6 +95,11 @@ int RunSynth(const SynthArguments& arguments, bool has_seed) {
                 summary.num_photographs,
                 summary.num_novel_views,
                 summary.mean_tag_error_px);
+    if (recipe.april_tags.count > 0) {
+      std::printf("%d of %d AprilTags hang on its walls, surveyed in apriltags.csv\n",
+                  summary.num_april_tags,
+                  recipe.april_tags.count);
+    }
   }
   return kExitDone;
 }
@@ -113,6 +121,11 @@ void AddSynthCommand(CLI::App& app, int& exit_status) {
                    arguments->num_blunders,
                    "tags that hold a blunder: swapped coordinates, a wrong sign, another "
                    "photograph's numbers")
+      ->check(AtLeast(0));
+  command
+      ->add_option("--april-tags",
+                   arguments->num_april_tags,
+                   "AprilTags on the building's walls, surveyed in apriltags.csv")
       ->check(AtLeast(0));
   command->add_flag("--list", arguments->list, "list the presets");
   command->add_option(

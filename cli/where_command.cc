@@ -107,7 +107,8 @@ int WriteCrops(const WhereArguments& arguments, const Survey& survey, const Answ
   return written;
 }
 
-double WorstSigma(const Eigen::Matrix3d& covariance) {
+// One standard deviation of a point, its three axes together.
+double SigmaInSpace(const Eigen::Matrix3d& covariance) {
   return std::sqrt(std::max(0.0, covariance.trace()));
 }
 
@@ -127,9 +128,9 @@ void PrintPlace(const Survey& survey, const Answer& answer, size_t index) {
               sigma.z());
   if (place.photograph) {
     std::printf("  (camera %.3f, pointing %.3f, model %.3f)",
-                WorstSigma(place.Covariance(ErrorKind::kCamera)),
-                WorstSigma(place.Covariance(ErrorKind::kPixel)),
-                WorstSigma(place.Covariance(ErrorKind::kModel)));
+                SigmaInSpace(place.Covariance(ErrorKind::kCamera)),
+                SigmaInSpace(place.Covariance(ErrorKind::kPixel)),
+                SigmaInSpace(place.Covariance(ErrorKind::kModel)));
   }
   std::printf("\n");
   if (place.faces.empty()) {

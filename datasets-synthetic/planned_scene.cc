@@ -61,6 +61,7 @@ PlannedScene PlanScene(const SynthRecipe& recipe) {
     planned.photographs.push_back(PlanPhotograph(subject.views[i], recipe, static_cast<int>(i)));
   }
   BlunderInNotebook(recipe, planned.photographs);
+  planned.wall_tags = HangWallTags(recipe, planned.photographs, planned.world);
   return planned;
 }
 

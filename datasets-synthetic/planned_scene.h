@@ -3,6 +3,7 @@
 #pragma once
 
 #include "datasets-synthetic/photograph_plan.h"
+#include "datasets-synthetic/wall_tags.h"
 
 #include <optional>
 #include <vector>
@@ -19,6 +20,7 @@ struct PlannedScene {
   Box built;  // what stands there, neighbours too
   std::vector<PhotographPlan> photographs;
   std::vector<PlannedView> novel_views;
+  std::vector<WallTag> wall_tags;
 };
 
 PlannedScene PlanScene(const SynthRecipe& recipe);

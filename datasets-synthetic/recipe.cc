@@ -107,6 +107,10 @@ void VisitFields(Recipe& recipe, const Visit& visit) {
   visit("photo/edge_rays", recipe.photo.edge_rays);
   visit("photo/bits", recipe.photo.bits);
   visit("photo/light", recipe.photo.light);
+  visit("april_tags/count", recipe.april_tags.count);
+  visit("april_tags/size", recipe.april_tags.size);
+  visit("april_tags/sigma", recipe.april_tags.sigma);
+  visit("april_tags/least_px", recipe.april_tags.least_px);
   visit("occluders/trees", recipe.occluders.trees);
   visit("occluders/lamps", recipe.occluders.lamps);
   visit("occluders/signs", recipe.occluders.signs);
@@ -154,6 +158,9 @@ void SynthRecipe::Check() const {
     throw Error("recipe field surface_texel must be 0.03 to 10");
   }
   if (notebook.blunders < 0) throw Error("recipe field notebook/blunders must not be negative");
+  CheckFromTo(april_tags.count, 0, 100, "recipe field april_tags/count");
+  CheckAbove(april_tags.size, 0, "recipe field april_tags/size");
+  CheckAbove(april_tags.sigma, 0, "recipe field april_tags/sigma");
   if (photo.spoilt_share > 1) throw Error("recipe field photo/spoilt_share must be at most 1");
   if (photo.bits != 8 && photo.bits != 16) throw Error("recipe field photo/bits must be 8 or 16");
   if (photo.edge_rays < 1 || photo.edge_rays > 1024) {

@@ -92,6 +92,16 @@ struct SynthRecipe {
     std::string light;
   } photo;
 
+  // AprilTags (tag36h11) on the building's walls, with their survey in apriltags.csv.
+  struct AprilTags {
+    int count = 0;
+    double size = 3;      // of the black square, in the model's unit
+    double sigma = 0.03;  // of the survey along each axis, one standard deviation; model's unit
+    // A tag hangs only where a photograph shows its black square this large; pixels, the side of
+    // the square of the same area.
+    double least_px = 24;
+  } april_tags;
+
   // What stands in the way and is not in the model.
   OccluderCounts occluders;
 

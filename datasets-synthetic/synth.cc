@@ -169,6 +169,13 @@ void WriteDocuments(const SynthRecipe& recipe,
   if (planned.exact_model) {
     WriteFileAtomically(folder / "truth" / "model_exact.osu", FormatOsu(*planned.exact_model));
   }
+  if (!planned.wall_tags.empty()) {
+    const auto table = [&](bool is_truth) {
+      return FormatWallTags(planned.wall_tags, recipe.april_tags, is_truth);
+    };
+    WriteFileAtomically(folder / "apriltags.csv", table(false));
+    WriteFileAtomically(folder / "truth" / "apriltags.csv", table(true));
+  }
   std::vector<NamedCamera> cameras;
   for (const PhotographPlan& plan : plans) {
     cameras.push_back({PictureFileName(plan, recipe), plan.written_camera});
@@ -191,6 +198,7 @@ SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
   SynthSummary summary;
   summary.num_faces = static_cast<int>(model.faces.size());
   summary.num_photographs = static_cast<int>(plans.size());
+  summary.num_april_tags = static_cast<int>(planned.wall_tags.size());
   summary.num_novel_views = static_cast<int>(planned.novel_views.size());
   for (const PhotographPlan& plan : plans) {
     summary.num_blunders += plan.blunder != Blunder::kNone;

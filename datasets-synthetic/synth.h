@@ -14,13 +14,14 @@ struct SynthSummary {
   int num_faces = 0;
   int num_photographs = 0;
   int num_novel_views = 0;
+  int num_april_tags = 0;        // on the building's walls
   int num_blunders = 0;          // among the hand tags
   double mean_tag_error_px = 0;  // the others' mean vertex error
 };
 
 // Makes a scene with known answers and writes it as a scene folder with its truth: model.osu,
-// views/, images/, truth/, recipe.json. The folder is made; it must be empty or not be there.
-// Throws Error.
+// views/, images/, truth/, recipe.json, and apriltags.csv where tags hang. The folder is made; it
+// must be empty or not be there. Throws Error.
 SynthSummary WriteSyntheticScene(const SynthRecipe& recipe,
                                  const std::filesystem::path& folder,
                                  const Progress& progress = {});

@@ -4,6 +4,7 @@
 
 #include "scene/error.h"
 #include "scene/formats/foreign_lens.h"
+#include "scene/formats/image_kind.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
 
@@ -49,6 +50,14 @@ const LensKey* FindKey(std::string_view name) {
 Lens ReadLens(const std::filesystem::path& file) {
   Lens lens;
   const std::string text = ReadTextFile(file);
+  // No text has such a byte.
+  if (text.find('\0') != std::string::npos) {
+    const ImageKind kind = FindImageKind(file);
+    throw Error(file,
+                (kind.IsImage() ? "a picture" : kind.description) +
+                    ", and no lens file; expected what `groundglass calibrate board` writes (v, a, "
+                    "...), or a camera of COLMAP, OpenCV, ROS or Kalibr");
+  }
   if (const std::optional<Lens> foreign = ReadForeignLens(text, file)) return *foreign;
   std::map<std::string, int> line_of_key;
   std::vector<TextToken> tokens;

@@ -4,6 +4,7 @@
 
 #include "scene/check_option.h"
 #include "scene/error.h"
+#include "scene/formats/sensor_table.h"
 #include "scene/frames.h"
 #include "scene/text.h"
 
@@ -98,10 +99,19 @@ std::optional<FocalLength> FindFocalLength(const PhotographMetadata& metadata,
                              FormatNumber(std::round(10 * sensor_mm) / 10) + " mm wide"};
     }
   }
-  return std::nullopt;
+  if (!metadata.focal_length_mm) return std::nullopt;
+  const std::optional<double> crop =
+      FindCropFactor(metadata.maker, metadata.model, options.sensor_tables);
+  if (!crop) return std::nullopt;
+  return FocalLength{*metadata.focal_length_mm * *crop / kDiagonal35mm *
+                         std::hypot(frame.width_px, frame.height_px),
+                     std::hypot(options.focal_length_share, options.sensor_table_share),
+                     FormatNumber(*metadata.focal_length_mm) + " mm on a sensor " +
+                         FormatNumber(*crop) +
+                         " times smaller than 36 mm x 24 mm, by lensfun's table"};
 }
 
-std::string WhyNone(const PhotographMetadata& metadata) {
+std::string WhyNone(const PhotographMetadata& metadata, const MetadataLensOptions& options) {
   if (!metadata.focal_length_mm) {
     for (const std::string& fault : metadata.faults) {
       if (fault.starts_with("focal length")) return "the picture's metadata have a " + fault;
@@ -110,14 +120,18 @@ std::string WhyNone(const PhotographMetadata& metadata) {
   }
   const std::string camera = metadata.model.empty() ? "its camera" : "the " + metadata.model;
   return "the picture's metadata say a focal length of " + FormatNumber(*metadata.focal_length_mm) +
-         " mm, but not how large the sensor of " + camera +
-         " is (groundglass calibrate lens --sensor-width)";
+         " mm, but not how large the sensor of " + camera + " is" +
+         (HasSensorTables(options.sensor_tables)
+              ? ", nor has lensfun's table it (give groundglass calibrate lens --sensor-width)"
+              : " (install lensfun's table of cameras, Debian's liblensfun-data-v1, or give "
+                "groundglass calibrate lens --sensor-width)");
 }
 
 }  // namespace
 
 void MetadataLensOptions::Check() const {
   CheckFromTo(focal_length_share, 1e-6, 1, "metadata lens options: focal_length_share");
+  CheckAbove(sensor_table_share, 0, "metadata lens options: sensor_table_share");
   if (sensor_width_mm) CheckFromTo(*sensor_width_mm, 1, 500, "sensor-width");
 }
 
@@ -133,7 +147,7 @@ MetadataLens FindMetadataLens(const PhotographMetadata& metadata,
   }
   const WholeFrame frame = FindWholeFrame(metadata);
   const std::optional<FocalLength> focal = FindFocalLength(metadata, frame, options);
-  if (!focal) return {{}, 0, WhyNone(metadata)};
+  if (!focal) return {{}, 0, WhyNone(metadata, options)};
   if (!frame.is_known) {
     return {{},
             0,

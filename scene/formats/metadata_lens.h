@@ -17,6 +17,10 @@ struct MetadataLensOptions {
   // The sensor's width in the camera's own landscape, where its maker's data tell it and the
   // photographs do not. Millimetres.
   std::optional<double> sensor_width_mm;
+  // Where lensfun's tables of sensors are installed (sensor_table.h), and how well they know a
+  // sensor, one standard deviation as a share: they round, and some follow the makers' data sheets.
+  std::filesystem::path sensor_tables = "/usr/share/lensfun";
+  double sensor_table_share = 0.015;
 
   void Check() const;  // throws Error naming the first field out of range
 };
@@ -30,7 +34,8 @@ struct MetadataLens {
 };
 
 // From the focal length for 35 mm film, whose diagonal is what counts (CIPA DCG-001, 3.1); else
-// from the focal length and the sensor's pixels per millimetre or its width. A picture that was
+// from the focal length and the sensor's pixels per millimetre, its width, or its size in lensfun's
+// table. A picture that was
 // made smaller since keeps its angle; of one that was cropped on one axis the uncropped side tells
 // the scale. Nothing where it would be a guess: no focal length, digital zoom, panoramas, crops on
 // both axes.

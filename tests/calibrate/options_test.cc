@@ -57,6 +57,10 @@ TEST(CalibrateOptions, FramesNameEachField) {
                                 square,
                                 least,
                                 most,
+                                play,
+                                aspect_sigma,
+                                video_sigma,
+                                blur,
                                 a] = FrameOptions();
   ExpectCheckNamesEach<FrameOptions>({
       {"even_share", [](FrameOptions& o) { o.even_share = 2; }},
@@ -68,6 +72,10 @@ TEST(CalibrateOptions, FramesNameEachField) {
       {"square_deg", [](FrameOptions& o) { o.square_deg = 0; }},
       {"least_aspect", [](FrameOptions& o) { o.least_aspect = 0; }},
       {"most_aspect", [](FrameOptions& o) { o.most_aspect = 0.5; }},
+      {"mount_play", [](FrameOptions& o) { o.mount_play = 0; }},
+      {"least_aspect_sigma", [](FrameOptions& o) { o.least_aspect_sigma = 0; }},
+      {"video_aspect_sigma", [](FrameOptions& o) { o.video_aspect_sigma = -1; }},
+      {"blur_px", [](FrameOptions& o) { o.blur_px = -1; }},
       {"aspect", [](FrameOptions& o) { o.aspect = 0; }},
   });
 }

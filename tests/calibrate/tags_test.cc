@@ -159,6 +159,16 @@ TEST_F(SurveyFileTest, FaultsAreNamedWithTheirLine) {
   EXPECT_THAT(message("id,x,y,z\n1,2,3,4\n"), HasSubstr("a.csv:1: column 'nx' is missing"));
   EXPECT_THAT(message(header + "1,0,0,0,0,1,0,1\n1,2,0,0,0,1,0,1\n"),
               HasSubstr("a.csv:3: tag 1 stands on line 2 already"));
+  // Every row that is wrong, not the first alone.
+  const std::string all =
+      message(header + "700,0,0,0,0,1,0,1\n1,0,0,0,0,1,0,1\n2,a,0,0,0,1,0,1\n3\n");
+  EXPECT_THAT(all, HasSubstr("a.csv:2: id must be a whole number"));
+  EXPECT_THAT(all, HasSubstr("a.csv:4: x: 'a' is not a number"));
+  EXPECT_THAT(all, HasSubstr("a.csv:5: has 1 field"));
+  EXPECT_THAT(message(""), HasSubstr("a.csv: it is empty; expected the columns id,x,y,z"));
+  EXPECT_THAT(message(header), HasSubstr("a.csv: there is no tag in it; expected"));
+  EXPECT_THAT(ThrownMessage([&] { ReadSurveyedTags(path() / "none.csv", LengthUnit::kMetre); }),
+              HasSubstr("none.csv: no such file: the tags' survey is needed"));
   EXPECT_THAT(message(header + "700,0,0,0,0,1,0,1\n"), HasSubstr("id must be a whole number"));
   EXPECT_THAT(message(header + "1,0,0,0,0,0,1,1\n"), HasSubstr("a tag that lies flat"));
   EXPECT_THAT(message("id,x1,y1,z1,x2,y2,z2,x3,y3,z3,x4,y4,z4\n3,9,0,6,11,0,6,9,0,4,11,0,4\n"),

@@ -111,5 +111,26 @@ TEST(Calibrate, ALensFileGoesToRosAndComesBack) {
   EXPECT_THAT(ReadAll(back), HasSubstr("k1 -0.1\n"));
 }
 
+TEST(Calibrate, AMissingSurveyAndAFolderWithoutScansSayWhatIsExpected) {
+  const TemporaryFolder work;
+  CopyBrick(work / "scene", {"s3"});
+  const ProgramRun tags = RunProgram({"calibrate", "tags", (work / "scene").string()});
+  EXPECT_EQ(tags.status, 1);
+  EXPECT_THAT(tags.err, HasSubstr("apriltags.csv: no such file: the tags' survey is needed"));
+  fs::create_directories(work / "empty");
+  const ProgramRun empty = RunProgram({"calibrate", "frame", (work / "empty").string()});
+  EXPECT_EQ(empty.status, 1);
+  EXPECT_THAT(empty.err, HasSubstr("empty: no scans; expected scans/ with pictures in it"));
+  // A folder of pictures, no scene.
+  const ProgramRun folder = RunProgram({"calibrate", "frame", (work / "scene/images").string()});
+  EXPECT_EQ(folder.status, 0) << folder.err;
+  EXPECT_THAT(folder.out, HasSubstr("s3: nothing, since"));
+  // Heights from a grid that is not there.
+  const ProgramRun geoid =
+      RunProgram({"calibrate", "lens", (work / "scene").string(), "--geoid", "egm96-5"});
+  EXPECT_EQ(geoid.status, 1);
+  EXPECT_THAT(geoid.err, HasSubstr("--geoid egm96-5: the model does not say where it stands"));
+}
+
 }  // namespace
 }  // namespace groundglass

@@ -37,6 +37,9 @@ TEST(SynthOptions, CheckNamesEachField) {
   ExpectCheckNamesEach<SynthRecipe>({
       {"lens/k1", [](auto& o) { o.lens.k1 = kNotANumber; }},
       {"photo/grain", [](auto& o) { o.photo.grain = kInfinity; }},
+      {"april_tags/count", [](auto& o) { o.april_tags.count = -1; }},
+      {"april_tags/size", [](auto& o) { o.april_tags.size = 0; }},
+      {"april_tags/sigma", [](auto& o) { o.april_tags.sigma = 0; }},
       {"slide/sigma_shift", [](auto& o) { o.slide.sigma_shift = kNotANumber; }},
   });
 }

@@ -103,5 +103,12 @@ TEST_F(ForeignLens, WhatCannotBeMeantIsNamed) {
               HasSubstr("no place for the lens' k3"));
 }
 
+TEST_F(ForeignLens, APictureInItsPlaceIsNamedAndNotPrinted) {
+  const std::string jpeg = std::string("\xFF\xD8\xFF\xE0\0\x10JFIF\0", 11);
+  const std::string message = ThrownMessage([&] { Read(jpeg); });
+  EXPECT_THAT(message, HasSubstr("lens: a picture, and no lens file; expected"));
+  EXPECT_EQ(message.find('\xFF'), std::string::npos);
+}
+
 }  // namespace
 }  // namespace groundglass

@@ -6,6 +6,7 @@
 #include "scene/formats/metadata_lens.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/view_io.h"
+#include "scene/frames.h"
 #include "tests/scene/sample_scene_folder.h"
 #include "tests/support/thrown_message.h"
 
@@ -55,7 +56,13 @@ class PhotographMetadataTest : public TemporaryFolder, public testing::Test {
     return ReadPhotographMetadata(path() / "p.jpg");
   }
   MetadataLens LensOf(const std::function<void(OIIO::ImageSpec&)>& say) {
-    return FindMetadataLens(Read(say));
+    return FindMetadataLens(Read(say), Options());
+  }
+  // No tables of sensors but the test's own.
+  MetadataLensOptions Options() {
+    MetadataLensOptions options;
+    options.sensor_tables = path() / "tables";
+    return options;
   }
 };
 
@@ -104,6 +111,44 @@ TEST_F(PhotographMetadataTest, AFocalLengthAloneAsksForTheSensor) {
   const MetadataLens lens = FindMetadataLens(Read(say), options);
   ASSERT_TRUE(lens.view_angle_deg);
   EXPECT_NEAR(*lens.view_angle_deg, 90, 1e-6);
+}
+
+TEST_F(PhotographMetadataTest, ASensorsSizeComesFromLensfunsNewestTable) {
+  const auto say = [](OIIO::ImageSpec& spec) {
+    spec.attribute("Exif:FocalLength", 18.0f);
+    spec.attribute("Make", "NIKON CORPORATION");
+    spec.attribute("Model", "NIKON D80");
+  };
+  EXPECT_THAT(LensOf(say).how, HasSubstr("install lensfun's table of cameras"));
+  const auto table = [](const std::string& factor) {
+    return "<lensdatabase version=\"1\"><camera><maker>Nikon Corporation</maker>"
+           "<maker lang=\"en\">Nikon</maker><model>Nikon D80</model><model lang=\"en\">D80</model>"
+           "<cropfactor>" +
+           factor + "</cropfactor></camera><lens><cropfactor>9</cropfactor></lens></lensdatabase>";
+  };
+  // A folder is read once: another one for each table.
+  MetadataLensOptions options = Options();
+  options.sensor_tables = path() / "installed";
+  Write("installed/version_0/slr.xml", table("7"));
+  Write("installed/version_1/slr.xml", table("1.5"));
+  const MetadataLens lens = FindMetadataLens(Read(say), options);
+  ASSERT_TRUE(lens.view_angle_deg);
+  // 27 mm for 35 mm film, whose diagonal is 43.27 mm; 4:3, so the width is 0.8 of the diagonal.
+  const double half_tangent = 0.8 * std::hypot(36, 24) / 2 / 27;
+  EXPECT_NEAR(*lens.view_angle_deg, DegreesFromRadians(2 * std::atan(half_tangent)), 1e-6);
+  EXPECT_EQ(lens.how,
+            "18 mm on a sensor 1.5 times smaller than 36 mm x 24 mm, by lensfun's table "
+            "(NIKON CORPORATION NIKON D80)");
+  // Two shares of the focal length, 2 and 1.5 %, together.
+  EXPECT_NEAR(lens.sigma_deg,
+              DegreesFromRadians(2 * half_tangent / (1 + half_tangent * half_tangent) * 0.025),
+              1e-6);
+  const auto say_other = [&](OIIO::ImageSpec& spec) {
+    say(spec);
+    spec.attribute("Model", "NIKON D9999");
+  };
+  EXPECT_THAT(FindMetadataLens(Read(say_other), options).how,
+              HasSubstr("nor has lensfun's table it"));
 }
 
 TEST_F(PhotographMetadataTest, BadFocalLengthsAreNamed) {
