@@ -43,15 +43,6 @@ std::array<double, 2> SingularValues(const Eigen::MatrixXd& matrix) {
   return {values[0], values[1]};
 }
 
-bool IsMasked(const SurveyPhotograph& photograph, const Eigen::Vector2d& image_px) {
-  if (!photograph.mask_file) return false;
-  const Image8 mask =
-      ReadIgnoreMask(*photograph.mask_file, {photograph.width_px, photograph.height_px});
-  const int x = std::clamp(static_cast<int>(image_px.x()), 0, mask.width - 1);
-  const int y = std::clamp(static_cast<int>(image_px.y()), 0, mask.height - 1);
-  return *mask.At(x, y) != 0;
-}
-
 void Set(Sighting& sighting, SightingState state, const std::string& reason) {
   sighting.state = state;
   sighting.reason = reason;
@@ -82,11 +73,52 @@ void FillFigures(const SurveyPhotograph& photograph,
   sighting.pixel_size = {1 / std::max(px_per_unit[1], 1e-12), 1 / std::max(px_per_unit[0], 1e-12)};
 }
 
-Sighting Look(const Survey& survey,
-              const Visibility& visibility,
-              const Place& place,
-              int index,
-              const SightingOptions& options) {
+}  // namespace
+
+std::string_view SightingStateName(SightingState state) {
+  switch (state) {
+    case SightingState::kShown:
+      return "shown";
+    case SightingState::kGrazing:
+      return "grazing";
+    case SightingState::kOutside:
+      return "outside";
+    case SightingState::kBehind:
+      return "behind";
+    case SightingState::kBackFace:
+      return "back";
+    case SightingState::kHidden:
+      return "hidden";
+    case SightingState::kMasked:
+      return "masked";
+  }
+  return "";
+}
+
+void SightingOptions::Check() const {
+  CheckFromTo(min_angle_deg, 0, 90, "sighting options: min_angle_deg");
+}
+
+bool SurveyMasks::Ignores(int photograph, const Eigen::Vector2d& image_px) {
+  const SurveyPhotograph& of = survey_.photographs[photograph];
+  if (!of.mask_file) return false;
+  auto mask = masks_.find(photograph);
+  if (mask == masks_.end()) {
+    const ImageSize size = {of.width_px, of.height_px};
+    mask = masks_.emplace(photograph, ReadIgnoreMask(*of.mask_file, size)).first;
+  }
+  const Image8& ignore = mask->second;
+  const int x = std::clamp(static_cast<int>(image_px.x()), 0, ignore.width - 1);
+  const int y = std::clamp(static_cast<int>(image_px.y()), 0, ignore.height - 1);
+  return *ignore.At(x, y) != 0;
+}
+
+Sighting FindSighting(const Survey& survey,
+                      const Visibility& visibility,
+                      const Place& place,
+                      int index,
+                      SurveyMasks& masks,
+                      const SightingOptions& options) {
   const SurveyPhotograph& photograph = survey.photographs[index];
   const Camera camera = photograph.AsCamera();
   const Eigen::Vector3d camera_in_world = camera.PositionInWorld();
@@ -118,36 +150,10 @@ Sighting Look(const Survey& survey,
     Set(sighting,
         SightingState::kGrazing,
         "seen at " + OneDecimal(sighting.angle_deg) + " degrees from the face only");
-  } else if (IsMasked(photograph, *sighting.image_px)) {
+  } else if (masks.Ignores(index, *sighting.image_px)) {
     Set(sighting, SightingState::kMasked, "its mask says that something else is seen there");
   }
   return sighting;
-}
-
-}  // namespace
-
-std::string_view SightingStateName(SightingState state) {
-  switch (state) {
-    case SightingState::kShown:
-      return "shown";
-    case SightingState::kGrazing:
-      return "grazing";
-    case SightingState::kOutside:
-      return "outside";
-    case SightingState::kBehind:
-      return "behind";
-    case SightingState::kBackFace:
-      return "back";
-    case SightingState::kHidden:
-      return "hidden";
-    case SightingState::kMasked:
-      return "masked";
-  }
-  return "";
-}
-
-void SightingOptions::Check() const {
-  CheckFromTo(min_angle_deg, 0, 90, "sighting options: min_angle_deg");
 }
 
 std::vector<Sighting> FindSightings(const Survey& survey,
@@ -156,8 +162,9 @@ std::vector<Sighting> FindSightings(const Survey& survey,
                                     const SightingOptions& options) {
   options.Check();
   std::vector<Sighting> sightings;
+  SurveyMasks masks(survey);
   for (int i = 0; i < static_cast<int>(survey.photographs.size()); ++i) {
-    sightings.push_back(Look(survey, visibility, place, i, options));
+    sightings.push_back(FindSighting(survey, visibility, place, i, masks, options));
   }
   std::stable_sort(sightings.begin(), sightings.end(), [](const Sighting& a, const Sighting& b) {
     const bool a_shows = a.state == SightingState::kShown;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "ask/place.h"
+#include "scene/image.h"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +45,27 @@ struct SightingOptions {
 
   void Check() const;  // throws Error naming the first field out of range
 };
+
+// The masks of a survey's photographs, each read when it is first asked for. To be used by one
+// thread.
+class SurveyMasks {
+ public:
+  explicit SurveyMasks(const Survey& survey) : survey_(survey) {}  // which must outlive it
+  // Whether the mask says that something else is seen there. Throws Error if it cannot be read.
+  bool Ignores(int photograph, const Eigen::Vector2d& image_px);
+
+ private:
+  const Survey& survey_;
+  std::map<int, Image8> masks_;
+};
+
+// How one photograph of the survey sees a place.
+Sighting FindSighting(const Survey& survey,
+                      const Visibility& visibility,
+                      const Place& place,
+                      int photograph,
+                      SurveyMasks& masks,
+                      const SightingOptions& options = {});
 
 // How each photograph of the survey sees a place: those that show it first, the finest first; then
 // the others in the survey's order. Reads the masks of photographs that would show it.

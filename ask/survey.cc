@@ -5,11 +5,7 @@
 #include "register/register.h"
 #include "scene/error.h"
 #include "scene/formats/photograph_name.h"
-#include "scene/formats/registration_io.h"
 #include "scene/formats/scene_folder.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace groundglass {
 namespace {
@@ -33,9 +29,9 @@ SurveyPhotograph AsWritten(const Photograph& photograph, const PolygonModel& mod
           photograph.mask_file};
 }
 
-Survey SurveyOfScene(Scene scene) {
+Survey SurveyOfScene(const Scene& scene) {
   Survey survey;
-  survey.model = std::move(scene.model);
+  survey.model = scene.model;
   for (const Photograph& photograph : scene.photographs) {
     survey.photographs.push_back(AsWritten(photograph, survey.model));
   }
@@ -70,51 +66,27 @@ void AddRegistration(const Registration& registration, const Scene& scene, Surve
   survey.photographs.push_back(std::move(photograph));
 }
 
-Scene ReadSceneToAsk(const fs::path& folder, const ModelOptions& options) {
-  SceneOptions scene_options;
-  scene_options.model = options;
-  SceneCheck check = ScanScene(folder, scene_options);
-  if (check.scene.model.faces.empty() && !check.faults.empty()) throw Error(check.faults.front());
-  return std::move(check.scene);
-}
-
 }  // namespace
 
-bool IsSameModel(const PolygonModel& a, const PolygonModel& b) {
-  if (a.faces.size() != b.faces.size() || a.faces.empty()) return false;
-  const double size_a = ComputeBounds(a).Diagonal();
-  return std::abs(ComputeBounds(b).Diagonal() - size_a) < 0.01 * size_a;
+Survey SurveyOf(const OpenedFolder& opened) {
+  Survey survey;
+  // Where nothing was registered the tags are what is known.
+  if (opened.registrations.empty()) {
+    survey = SurveyOfScene(opened.scene);
+  } else {
+    survey.model = opened.scene.model;
+    for (const Registration& registration : opened.registrations) {
+      AddRegistration(registration, opened.scene, survey);
+    }
+  }
+  survey.textures = opened.textured.faces;
+  return survey;
 }
 
 Survey ReadSurvey(const fs::path& folder,
                   const fs::path& scene_folder,
                   const ModelOptions& options) {
-  if (!fs::is_directory(folder)) {
-    throw Error(folder, "no such folder; expected an output folder or a scene");
-  }
-  if (!fs::exists(folder / "registration.json")) {
-    if (!scene_folder.empty()) {
-      throw Error(folder, "has no registration.json; with --scene an output folder is expected");
-    }
-    return SurveyOfScene(ReadSceneToAsk(folder, options));
-  }
-  Scene scene;
-  if (!scene_folder.empty()) scene = ReadSceneToAsk(scene_folder, options);
-  Survey survey;
-  survey.model = scene.model;
-  const fs::path textured_file = folder / "model.glb";
-  if (fs::exists(textured_file)) {
-    TexturedModel textured = ReadTexturedModel(textured_file, options).textured;
-    // The cameras belong to the model that they were found with.
-    if (!IsSameModel(survey.model, textured.model)) survey.model = textured.model;
-    survey.textures = textured.faces;
-  } else if (scene_folder.empty()) {
-    throw Error(folder, "has no model.glb; say where the model is with --scene");
-  }
-  for (const Registration& registration : ReadRegistrations(folder / "registration.json")) {
-    AddRegistration(registration, scene, survey);
-  }
-  return survey;
+  return SurveyOf(OpenFolder(folder, scene_folder, options, false));
 }
 
 int FindSurveyPhotograph(const Survey& survey, const std::string& word) {

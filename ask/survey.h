@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "ask/opened_folder.h"
 #include "scene/formats/model_io.h"
 #include "scene/registration.h"
 #include "scene/textured_model.h"
@@ -41,10 +42,10 @@ struct Survey {
   std::vector<LeftOutPhotograph> left_out;
 };
 
-// Reads an output folder (its registration.json, and its textured model where there is one), or a
-// scene folder, whose cameras are then as written, with the standard deviations of their tags.
-// scene_folder: where the photographs of an output folder are, and its model if it has none; empty
-// if nobody says. Photographs are not decoded. Throws Error.
+// The corrected cameras of an output folder; of a scene, and where nothing was registered, the
+// cameras as written, with the standard deviations of their tags.
+Survey SurveyOf(const OpenedFolder& opened);
+// The same of what OpenFolder reads. Throws Error.
 Survey ReadSurvey(const std::filesystem::path& folder,
                   const std::filesystem::path& scene_folder,
                   const ModelOptions& options = {});
@@ -52,9 +53,5 @@ Survey ReadSurvey(const std::filesystem::path& folder,
 // The photograph that this word means, as FindPhotograph has it. Throws Error naming the nearest,
 // or why the photograph is left out.
 int FindSurveyPhotograph(const Survey& survey, const std::string& word);
-
-// Whether two models are one in one unit: as many faces, and as large. Those that cameras were
-// found with and that a scene holds now may differ, if only in unit.
-bool IsSameModel(const PolygonModel& a, const PolygonModel& b);
 
 }  // namespace groundglass

@@ -28,32 +28,31 @@ Uint32 WakeEvent() {
   return event;
 }
 
-Survey SurveyOf(const Document& document, const WindowOptions& options) {
-  if (std::filesystem::is_regular_file(options.folder)) {
-    Survey survey;
-    survey.model = document.textured.model;
-    return survey;
-  }
-  return ReadSurvey(options.folder, options.scene_folder, options.model);
-}
-
 }  // namespace
 
 App::App(const WindowOptions& options, Document document)
     : options_(options),
       document_(std::move(document)),
-      session_(document_.scene, document_.journal_file),
-      written_(FindWrittenCameras(session_, document_.scene)),
-      visibility_(document_.textured.model),
-      edges_(FindModelEdges(document_.textured.model)),
-      survey_(SurveyOf(document_, options)),
+      session_(document_.opened.scene, document_.journal_file),
+      masks_(session_, document_.opened.scene.folder),
+      written_(FindWrittenCameras(session_, document_.opened.scene)),
+      visibility_(document_.opened.textured.model),
+      edges_(FindModelEdges(document_.opened.textured.model)),
+      survey_(SurveyOf(document_.opened)),
+      written_spread_(FindWrittenSpread(document_.opened.scene)),
       window_("groundglass", options.width_px, options.height_px),
-      worker_(document_.textured, [this] { WakeUp(); }),
+      worker_(document_.opened.textured, [this] { WakeUp(); }),
       cache_(ImageFilesOf(session_), [this] { WakeUp(); }),
+      maps_(document_.opened.is_output ? options.folder : std::filesystem::path(),
+            document_.opened.textured,
+            survey_,
+            visibility_,
+            [this] { WakeUp(); }),
       text_scale_(options.text_scale),
       new_text_scale_(options.text_scale) {
-  const bool has_texture = !document_.textured.pages.empty();
+  const bool has_texture = !document_.opened.textured.pages.empty();
   draw_mode_ = has_texture ? DrawMode::kTextured : DrawMode::kShaded;
+  StartFromTheRun(document_, session_);
   window_.SetTextScale(text_scale_);
   LayOut();
   eye_ = FirstEye(session_.model(), static_cast<double>(pane_.width) / pane_.height);
@@ -81,8 +80,8 @@ void App::Run() {
 }
 
 void App::HandleEvents() {
-  const bool is_restless =
-      frames_to_draw_ > 0 || needs_frame_ || governor_.IsMoving(NowMs()) || wants_fence_;
+  const bool is_restless = frames_to_draw_ > 0 || needs_frame_ || governor_.IsMoving(NowMs()) ||
+                           is_playing_ || wants_fence_;
   SDL_Event event;
   if (!SDL_WaitEventTimeout(&event, is_restless ? 4 : 250)) return;
   do {
@@ -145,11 +144,9 @@ void App::Update() {
     FitPhotograph();
   }
   FlyByKeys(now);
-  if (alignment_.valid() &&
-      alignment_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-    TakeAlignment();
-    needs_frame_ = true;
-  }
+  FollowFlight();
+  TakeAlignment();
+  UpdateMap();
   for (auto& [photograph, thumbnail] : cache_.TakeThumbnails()) {
     thumbnails_[photograph] = window_.MakeTexture(thumbnail);
     needs_frame_ = true;
@@ -188,8 +185,11 @@ void App::DrawFrame() {
 }
 
 bool App::HasJobs() const {
-  return worker_.IsBusy() || alignment_.valid() || governor_.IsMoving(NowMs()) ||
-         (IsInside() && cache_.IsBusy());
+  // A map that is made is not yet one that is shown.
+  const bool is_map_due =
+      map_ != LookMap::kNone && map_ != LookMap::kTiles1988 && shown_map_ == nullptr;
+  return worker_.IsBusy() || is_map_due || is_playing_ || alignment_.IsRunning() ||
+         governor_.IsMoving(NowMs()) || (IsInside() && cache_.IsBusy());
 }
 
 void App::FinishFrame() {
@@ -235,6 +235,8 @@ std::string App::DescribeState() {
       {"gesture", static_cast<int>(gesture_)},
       {"armed", armed_point_.value_or(-1)},
       {"covered", IsCovered()},
+      {"keyframes", keyframes_ ? keyframes_->cameras().size() : 0},
+      {"map", shown_map_ ? shown_map_->legend.title : ""},
       {"places", places_.size()},
       {"eye",
        {eye_.position_in_world.x(), eye_.position_in_world.y(), eye_.position_in_world.z()}}};
@@ -245,6 +247,11 @@ std::string App::DescribeState() {
   json["undo_depth"] = session_.UndoDepth(photograph_);
   json["pins"] = work.pins.points.size();
   json["lines"] = work.pins.lines.size();
+  if (CanMask()) {
+    const auto& values = masks_.Paint(photograph_).ignore().values;
+    json["masked"] = std::count(values.begin(), values.end(), 255);
+    json["mask_unsaved"] = masks_.IsUnsaved(photograph_);
+  }
   json["verdict"] = work.alignment ? VerdictName(work.alignment->verdict) : "";
   if (work.tag) json["found"] = FormatView(*session_.TagOf(photograph_));
   json["place"] = {place_.scale, place_.origin_px.x(), place_.origin_px.y()};
@@ -262,7 +269,7 @@ void App::WriteFence() {
 }
 
 void App::Quit() {
-  if (session_.HasUnsaved()) {
+  if (session_.HasUnsaved() || masks_.HasUnsaved()) {
     asks_to_quit_ = true;
   } else {
     is_open_ = false;

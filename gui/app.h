@@ -6,15 +6,17 @@
 #include "ask/answer.h"
 #include "gui/background.h"
 #include "gui/document.h"
+#include "gui/look_maps.h"
 #include "gui/sdl_window.h"
-#include "register/register.h"
+#include "session/alignment.h"
 #include "session/bindings.h"
+#include "session/keyframes.h"
+#include "session/mask_desk.h"
 #include "session/navigator.h"
 #include "session/picking.h"
 #include "session/session.h"
 
 #include <chrono>
-#include <future>
 #include <map>
 #include <optional>
 #include <string>
@@ -53,10 +55,26 @@ struct PlanFrame {
 };
 
 // What the mouse is doing in the picture.
-enum class Gesture { kNone, kOrbit, kPan, kLook, kMovePhotograph, kPin, kNewPin, kLine, kRough };
+enum class Gesture {
+  kNone,
+  kOrbit,
+  kPan,
+  kLook,
+  kMovePhotograph,
+  kPin,
+  kNewPin,
+  kLine,
+  kRough,
+  kPaint,
+  kLasso
+};
 
 // The cameras of the scene's tags, for each of the session's photographs.
 std::vector<std::optional<Camera>> FindWrittenCameras(const Session& session, const Scene& scene);
+// Covariances of where cameras stood, given what their tags say, by photograph.
+std::map<std::string, Eigen::Matrix3d> FindWrittenSpread(const Scene& scene);
+// Where the keyframes of what is shown are.
+std::filesystem::path FlightFolder(const WindowOptions& options, const Scene& scene);
 
 // Everything that the window shows and does. Input becomes actions (bindings.h) and gestures; these
 // change the session, the eye or what is shown; every frame is drawn from that state alone.
@@ -105,7 +123,16 @@ class App {
   const std::optional<Camera>& WrittenCamera(int photograph) const;
   // As it is believed to be now.
   std::optional<Camera> BelievedCamera(int photograph) const;
-  PictureRequest MakeRequest() const;
+  // How sure one is of where it stood as it is believed to be now; nothing where no more is known
+  // than what was written.
+  std::optional<Eigen::Matrix3d> FoundSpread(int photograph) const;
+  // app_maps.cc: what faces are coloured by.
+  void ShowFaces(DrawMode mode);
+  void ShowMap(LookMap map);
+  void UpdateMap();
+  void OpenTiles();
+  std::string DescribeMapAt(const FacePick& pick) const;
+  PictureRequest MakeRequest();
   void MoveEye(const Eye& eye);
   void Choose(int photograph, bool enter);
   void Leave();
@@ -129,16 +156,42 @@ class App {
   void StandThere(const Eigen::Vector3d& stood_in_world, const Eigen::Vector3d& looked_in_world);
   void StandAsLooking();
   void NudgePin(const KeyPress& press);
+  void SnapPin();
+  void ShowRival();
   void StepCorner(int by);
   void TakeCorner();
   void CycleUse();
   void RemovePin();
   void ToggleCropped();
   void Align();
+  void StopAlignment();
   void TakeAlignment();
   void Accept(bool against_verdict);
+  void BackToNotebook();
   void Save();
   bool IsCropped() const;
+
+  // app_flight.cc
+  Keyframes* Flight();
+  void FindFlight();
+  void AddKeyframe();
+  void RemoveKeyframe();
+  void PlayFlight();
+  void FollowFlight();
+  void DrawFlight();
+
+  // app_mask.cc
+  bool CanMask() const { return photograph_ >= 0 && mode_ == WindowMode::kMask && IsInside(); }
+  MaskPaint* Mask();
+  std::shared_ptr<const Image8> ShownMask();
+  void PressInMask(const Eigen::Vector2d& pane_px, int button, bool is_double, bool shift);
+  void DragInMask(const Eigen::Vector2d& pane_px);
+  void ReleaseInMask();
+  void ResizeBrush(double factor, bool is_eraser);
+  bool DoInMask(Action action);
+  void SaveMask(bool over_others);
+  void DrawMaskTools();
+  void DrawMaskPanel();
 
   // app_ask.cc
   void AskAt(const Eigen::Vector2d& pane_px, bool adds);
@@ -165,6 +218,13 @@ class App {
   // overlay.cc: over the picture.
   void DrawOverlayLines();
   void DrawStations();
+  // look_overlay.cc
+  void DrawEllipsoid(const Eigen::Vector3d& middle_in_world,
+                     const Eigen::Matrix3d& covariance,
+                     unsigned colour,
+                     bool is_dashed);
+  void DrawEllipsoids();
+  void DrawLegend();
   void DrawPins();
   void DrawPlaces();
   void DrawLoupe();
@@ -172,13 +232,17 @@ class App {
   WindowOptions options_;
   Document document_;
   Session session_;
+  MaskDesk masks_;
   std::vector<std::optional<Camera>> written_;
   Visibility visibility_;
   std::vector<ModelEdge> edges_;
   Survey survey_;
+  // Covariances of where the cameras stood, as written, by photograph.
+  std::map<std::string, Eigen::Matrix3d> written_spread_;
   SdlWindow window_;
   PictureWorker worker_;
   PhotographCache cache_;
+  LookMaps maps_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
   // The window.
@@ -188,6 +252,7 @@ class App {
   bool shows_help_ = false;
   bool asks_to_quit_ = false;
   bool asks_to_overwrite_ = false;
+  bool asks_to_overwrite_mask_ = false;
   bool asks_reason_ = false;
   bool offers_left_work_ = false;
   bool says_yes_ = false;  // to the question that is asked, by key
@@ -215,13 +280,18 @@ class App {
   // What is shown.
   WindowMode mode_ = WindowMode::kLook;
   DrawMode draw_mode_ = DrawMode::kTextured;
+  LookMap map_ = LookMap::kNone;
+  std::shared_ptr<const ColouredModel> shown_map_;  // map_, once it is made
+  std::shared_ptr<const std::vector<MappedTiles>> tiles_;
   bool shows_edges_ = true;
+  bool shows_ellipsoids_ = false;
   bool shows_stations_ = true;
   bool shows_written_ = true;
+  bool shows_rival_ = false;
   bool is_walking_ = false;
   Eye eye_;
   std::vector<Eye> eyes_before_;
-  std::optional<int> picked_face_;
+  std::optional<FacePick> picked_;
   int photograph_ = -1;  // chosen; -1: none
   bool inside_ = false;
   PhotographPlace place_;
@@ -253,9 +323,27 @@ class App {
   bool shows_loupe_ = false;  // always; else while a pin is moved
   TexturePtr loupe_;
   std::vector<VisibleCorner> corners_;
-  std::future<AlignmentNews> alignment_;
+  AlignmentJob alignment_;
   int aligned_photograph_ = -1;
   PhotographWork aligned_work_;  // as it was when alignment began
+
+  // Flight.
+  std::optional<Keyframes> keyframes_;  // read when they are first asked for
+  std::vector<Camera> flight_;          // a frame each
+  bool shows_flight_ = false;
+  bool is_playing_ = false;
+  double playing_since_ms_ = 0;
+
+  // Mask.
+  double brush_px_ = 16;  // radius, of the window
+  double eraser_px_ = 16;
+  bool is_erasing_ = false;
+  int depth_before_press_ = 0;  // of the mask's undo, before the last stroke
+  Eigen::Vector2d painted_px_ = Eigen::Vector2d::Zero();  // of the photograph: where the brush was
+  std::vector<Eigen::Vector2d> lasso_px_;
+  std::shared_ptr<const Image8> mask_shown_;
+  int mask_of_ = -1;
+  int mask_version_ = 0;
 
   // Ask.
   std::vector<Place> places_;

@@ -30,6 +30,7 @@ std::vector<BindingPlace> App::Places() const {
   places.push_back(IsInside() ? BindingPlace::kPhotograph : BindingPlace::kLook);
   if (mode_ == WindowMode::kTag && IsInside()) places.push_back(BindingPlace::kTag);
   if (mode_ == WindowMode::kAsk) places.push_back(BindingPlace::kAsk);
+  if (CanMask()) places.push_back(BindingPlace::kMask);
   return places;
 }
 
@@ -53,6 +54,7 @@ void App::HandleKey(const SDL_KeyboardEvent& key) {
 }
 
 void App::Do(Action action, const KeyPress& press) {
+  if (CanMask() && DoInMask(action)) return;
   if (DoEverywhere(action)) return;
   if (mode_ == WindowMode::kAsk && action == Action::kCopyCsv) {
     if (answer_) {
@@ -72,10 +74,9 @@ void App::Do(Action action, const KeyPress& press) {
 bool App::DoEverywhere(Action action) {
   const auto set_mode = [&](WindowMode mode) {
     mode_ = mode;
-    if (mode == WindowMode::kTag && photograph_ < 0 && !session_.photographs().empty()) {
-      photograph_ = 0;
-    }
-    if (mode == WindowMode::kTag && photograph_ >= 0) Choose(photograph_, true);
+    const bool needs_photograph = mode == WindowMode::kTag || mode == WindowMode::kMask;
+    if (needs_photograph && photograph_ < 0 && !session_.photographs().empty()) photograph_ = 0;
+    if (needs_photograph && photograph_ >= 0) Choose(photograph_, true);
   };
   switch (action) {
     case Action::kHelp:
@@ -89,6 +90,9 @@ bool App::DoEverywhere(Action action) {
       return true;
     case Action::kAskMode:
       set_mode(WindowMode::kAsk);
+      return true;
+    case Action::kMaskMode:
+      set_mode(WindowMode::kMask);
       return true;
     case Action::kUndo:
       if (photograph_ >= 0 && !session_.Undo(photograph_)) message_ = "nothing to undo";
@@ -139,6 +143,10 @@ bool App::DoEverywhere(Action action) {
 void App::Cancel() {
   if (shows_help_) {
     shows_help_ = false;
+  } else if (alignment_.IsRunning()) {
+    StopAlignment();
+  } else if (is_playing_) {
+    is_playing_ = false;
   } else if (armed_point_ || pin_ || gesture_ == Gesture::kRough) {
     armed_point_.reset();
     pin_is_due_ = false;
@@ -149,14 +157,14 @@ void App::Cancel() {
     AskAgain();
   } else if (IsInside()) {
     Leave();
-    if (mode_ == WindowMode::kTag) mode_ = WindowMode::kLook;
+    if (mode_ == WindowMode::kTag || mode_ == WindowMode::kMask) mode_ = WindowMode::kLook;
   }
 }
 
 void App::FramePickedFace() {
-  if (!picked_face_) return;
+  if (!picked_) return;
   Box box = {Eigen::Vector3d::Constant(1e300), Eigen::Vector3d::Constant(-1e300)};
-  for (const int point : session_.model().faces[*picked_face_].points) {
+  for (const int point : session_.model().faces[picked_->face].points) {
     box.min = box.min.cwiseMin(session_.model().points_in_world[point]);
     box.max = box.max.cwiseMax(session_.model().points_in_world[point]);
   }
@@ -185,16 +193,43 @@ bool App::DoInLook(Action action, const KeyPress& press) {
   const double aspect = static_cast<double>(pane_.width) / pane_.height;
   switch (action) {
     case Action::kWire:
-      draw_mode_ = DrawMode::kWireframe;
+      ShowFaces(DrawMode::kWireframe);
       return true;
     case Action::kShaded:
-      draw_mode_ = DrawMode::kShaded;
+      ShowFaces(DrawMode::kShaded);
       return true;
     case Action::kTextured:
-      draw_mode_ = DrawMode::kTextured;
+      ShowFaces(DrawMode::kTextured);
       return true;
     case Action::kNumbers:
-      draw_mode_ = DrawMode::kLabels;
+      ShowFaces(DrawMode::kLabels);
+      return true;
+    case Action::kCoverage:
+      ShowMap(LookMap::kCoverage);
+      return true;
+    case Action::kProvenance:
+      ShowMap(LookMap::kProvenance);
+      return true;
+    case Action::kTexelSize:
+      ShowMap(LookMap::kTexelSize);
+      return true;
+    case Action::kUncertainty:
+      ShowMap(LookMap::kUncertainty);
+      return true;
+    case Action::kTiles1988:
+      ShowMap(LookMap::kTiles1988);
+      return true;
+    case Action::kKeyframe:
+      AddKeyframe();
+      return true;
+    case Action::kPlay:
+      PlayFlight();
+      return true;
+    case Action::kRemoveKeyframe:
+      RemoveKeyframe();
+      return true;
+    case Action::kEllipsoids:
+      shows_ellipsoids_ = !shows_ellipsoids_;
       return true;
     case Action::kEdges:
       shows_edges_ = !shows_edges_;
@@ -307,6 +342,15 @@ bool App::DoInTag(Action action, const KeyPress& press) {
       return true;
     case Action::kOverrule:
       Accept(true);
+      return true;
+    case Action::kSnap:
+      SnapPin();
+      return true;
+    case Action::kRival:
+      ShowRival();
+      return true;
+    case Action::kNotebook:
+      BackToNotebook();
       return true;
     case Action::kNudge:
       NudgePin(press);

@@ -31,10 +31,10 @@ void App::HandleMouseButton(const SDL_MouseButtonEvent& button) {
       return;
     }
     if (CanTag() && button.button == SDL_BUTTON_LEFT) ReleaseInTag(at);
+    if (CanMask()) ReleaseInMask();
     const bool is_click = !has_moved_ && gesture_ == Gesture::kOrbit;
     if (is_click && mode_ == WindowMode::kLook) {
-      const auto pick = PickFace(visibility_, PaneCamera(), at);
-      picked_face_ = pick ? std::optional<int>(pick->face) : std::nullopt;
+      picked_ = PickFace(visibility_, PaneCamera(), at);
     }
     gesture_ = Gesture::kNone;
     return;
@@ -51,6 +51,10 @@ void App::HandleMouseButton(const SDL_MouseButtonEvent& button) {
   }
   if (CanTag() && button.button == SDL_BUTTON_LEFT) {
     PressInTag(at);
+    return;
+  }
+  if (CanMask()) {
+    PressInMask(at, button.button, button.clicks == 2, shift);
     return;
   }
   if (IsInside()) {
@@ -73,6 +77,8 @@ void App::HandleMouseMotion(const SDL_MouseMotionEvent& motion) {
   const Eigen::Vector2d at = pane_.Inside(motion.x, motion.y);
   const Eigen::Vector2d by = at - mouse_px_;
   mouse_px_ = at;
+  mouse_x_ = motion.x;
+  mouse_y_ = motion.y;
   if ((at - pressed_px_).norm() > kClickPx) has_moved_ = true;
   if (wipes_ && IsInside()) governor_.Moved(NowMs());
   switch (gesture_) {
@@ -97,6 +103,10 @@ void App::HandleMouseMotion(const SDL_MouseMotionEvent& motion) {
       governor_.Moved(NowMs());
       DragInTag(at, by, (SDL_GetModState() & KMOD_SHIFT) != 0);
       break;
+    case Gesture::kPaint:
+    case Gesture::kLasso:
+      DragInMask(at);
+      break;
     default:
       break;
   }
@@ -106,7 +116,10 @@ void App::HandleWheel(const SDL_MouseWheelEvent& wheel) {
   const bool is_in_pane = mouse_px_.x() >= 0 && mouse_px_.y() >= 0 && mouse_px_.x() < pane_.width &&
                           mouse_px_.y() < pane_.height;
   if (IsCovered() || !is_in_pane) return;
-  if (IsInside()) {
+  const bool shift = (SDL_GetModState() & KMOD_SHIFT) != 0;
+  if (CanMask() && shift) {
+    ResizeBrush(std::pow(1.2, wheel.y), false);
+  } else if (IsInside()) {
     ZoomPhotograph(mouse_px_, std::pow(1.2, wheel.y));
   } else if (gesture_ == Gesture::kLook) {
     fly_speed_ *= std::pow(1.25, wheel.y);

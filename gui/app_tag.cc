@@ -2,7 +2,6 @@
 // Part of Groundglass.
 #include "gui/app.h"
 #include "scene/error.h"
-#include "scene/formats/ignore_mask.h"
 
 #include <algorithm>
 #include <array>
@@ -13,52 +12,6 @@ namespace {
 
 constexpr double kReachPx = 12;
 constexpr double kEdgeReachPx = 7;
-
-// Runs on a thread of its own.
-AlignmentNews AlignOne(const SessionPhotograph& photograph,
-                       const ViewTag& tag,
-                       const Pins& pins,
-                       const PolygonModel& model) {
-  PhotographInput input;
-  input.name = photograph.name;
-  input.grey8 = ReadGrey8(photograph.image_file);
-  if (photograph.mask_file) input.ignore = ReadIgnoreMask(*photograph.mask_file, photograph.size);
-  input.measured = tag;
-  input.lens = photograph.lens;
-  RegisterOptions options;
-  for (const PointPin& pin : pins.points) {
-    if (pin.use != PinUse::kUsed) continue;
-    options.control_points.push_back(
-        {photograph.name, pin.image_px, pin.point_in_world, pin.sigma_px});
-  }
-  if (options.control_points.size() < 3) options.control_points.clear();
-  const EdgeModel edge_model(model);
-  const Registration registration = RegisterPhotograph(input, edge_model, options);
-  AlignmentNews news;
-  news.verdict = registration.verdict;
-  news.reasons = registration.reasons;
-  news.corrected = registration.corrected;
-  const auto of = [&](int parameter) { return std::max(1e-6, registration.sigmas[parameter]); };
-  TagSigmas& sigmas = news.corrected.sigmas;
-  const TagDeviations deviations = TagDeviationsFromCovariance(
-      ParametersFromTag(registration.corrected), registration.covariance, registration.corrected);
-  const auto deviation = [&](TagKey key) { return deviations[static_cast<size_t>(key)]; };
-  sigmas.position = std::max(of(kPositionX), of(kPositionY));
-  sigmas.height = of(kPositionZ);
-  sigmas.lookat =
-      std::max({1e-6, deviation(TagKey::kI), deviation(TagKey::kJ), deviation(TagKey::kK)});
-  sigmas.roll_deg = of(kRoll);
-  sigmas.view_angle_deg = of(kViewAngle);
-  sigmas.aspect = of(kAspect);
-  sigmas.shift = std::max(of(kShiftX), of(kShiftY));
-  sigmas.k1 = of(kK1);
-  news.moved_px = registration.moved_px;
-  news.vertex_sigma_px = registration.vertex_sigma_px;
-  news.rms_px = registration.rms_px;
-  news.margin_nats = registration.margin_nats;
-  news.undetermined = registration.undetermined;
-  return news;
-}
 
 }  // namespace
 
@@ -242,7 +195,7 @@ void App::StandAsLooking() {
 
 bool App::IsCropped() const {
   const auto& tag = session_.work(photograph_).tag;
-  return tag && tag->sigmas.shift && *tag->sigmas.shift > 0.1;
+  return tag && IsOfCroppedPicture(*tag, session_.options().rough);
 }
 
 void App::ToggleCropped() {
@@ -332,7 +285,7 @@ void App::RemovePin() {
 }
 
 void App::Align() {
-  if (alignment_.valid()) return;
+  if (alignment_.IsRunning()) return;
   const PhotographWork& work = session_.work(photograph_);
   const auto& solution = session_.Solution(photograph_);
   if (!work.tag || !solution) {
@@ -344,25 +297,28 @@ void App::Align() {
   tag.sigmas = work.tag->sigmas;
   aligned_photograph_ = photograph_;
   aligned_work_ = work;
-  alignment_ = std::async(std::launch::async,
-                          AlignOne,
-                          session_.photographs()[photograph_],
-                          tag,
-                          work.pins,
-                          session_.model());
+  alignment_.Start(
+      session_.photographs()[photograph_], tag, work.pins, session_.model(), [this] { WakeUp(); });
   message_ = "aligning " + session_.photographs()[photograph_].name + " ...";
+}
+
+void App::StopAlignment() {
+  alignment_.Stop();
+  message_ = "stopped: " + session_.photographs()[aligned_photograph_].name + " is as it was";
 }
 
 void App::TakeAlignment() {
   try {
+    std::optional<AlignmentNews> news = alignment_.Take();
+    if (!news) return;
+    needs_frame_ = true;
     PhotographWork work = session_.work(aligned_photograph_);
-    AlignmentNews news = alignment_.get();
     if (!(work.tag == aligned_work_.tag) || !(work.pins == aligned_work_.pins)) {
       message_ = session_.photographs()[aligned_photograph_].name +
                  " was changed while it was aligned: A aligns again";
       return;
     }
-    work.alignment = std::move(news);
+    work.alignment = std::move(*news);
     work.accepted.reset();
     work.overruled.clear();
     message_ = session_.photographs()[aligned_photograph_].name + ": " +
@@ -371,6 +327,7 @@ void App::TakeAlignment() {
     session_.Change(aligned_photograph_, std::move(work));
     session_.EndGesture();
   } catch (const std::exception& error) {
+    needs_frame_ = true;
     message_ = std::string("not aligned: ") + error.what();
   }
 }
@@ -394,6 +351,13 @@ void App::Accept(bool against_verdict) {
   reason_.clear();
   session_.Change(photograph_, std::move(work));
   session_.EndGesture();
+}
+
+void App::BackToNotebook() {
+  session_.BackToNotebook(photograph_);
+  session_.EndGesture();
+  LetGo();
+  message_ = session_.photographs()[photograph_].name + " is as the notebook has it";
 }
 
 void App::Save() {

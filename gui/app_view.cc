@@ -11,6 +11,7 @@ namespace {
 // Okabe and Ito's colours, which people of any colour vision tell apart.
 constexpr Srgb8Colour kCorrectedBlue = {86, 180, 233};
 constexpr Srgb8Colour kWrittenGrey = {190, 190, 190};
+constexpr Srgb8Colour kRivalPurple = {204, 121, 167};
 
 EdgeStyle StyleOf(Srgb8Colour colour, double width_px) {
   EdgeStyle style;
@@ -41,13 +42,6 @@ const std::optional<Camera>& App::WrittenCamera(int photograph) const {
 }
 
 std::optional<Camera> App::BelievedCamera(int photograph) const {
-  const auto found = document_.registrations.find(session_.photographs()[photograph].name);
-  // What the folder's registration found counts until somebody works on the photograph.
-  const bool is_worked_on = session_.UndoDepth(photograph) > 0;
-  if (!is_worked_on && found != document_.registrations.end() &&
-      HasCorrection(found->second.verdict)) {
-    return found->second.CorrectedCamera();
-  }
   return session_.CameraOf(photograph);
 }
 
@@ -65,17 +59,24 @@ Camera App::PaneCamera() const {
   return eye_.InFrame(pane_.width, pane_.height);
 }
 
-PictureRequest App::MakeRequest() const {
+PictureRequest App::MakeRequest() {
   PictureRequest request;
   request.width_px = pane_.width;
   request.height_px = pane_.height;
   request.quality = governor_.QualityAt(NowMs());
   request.mode = draw_mode_;
-  request.edges = shows_edges_ && draw_mode_ != DrawMode::kWireframe;
+  if (shown_map_) {
+    // The colours belong to the map, not to the light.
+    request.mode = DrawMode::kTextured;
+    request.coloured = {shown_map_, &shown_map_->textured};
+  }
+  if (map_ == LookMap::kTiles1988) request.tiles = tiles_;
+  request.edges = shows_edges_ && request.mode != DrawMode::kWireframe && request.tiles == nullptr;
   request.camera = PaneCamera();
   if (!IsInside()) return request;
-  request.photograph = const_cast<PhotographCache&>(cache_).Find(photograph_);
+  request.photograph = cache_.Find(photograph_);
   request.place = place_;
+  request.mask = ShownMask();
   request.has_model = PhotographCamera().has_value();
   request.model_share = photograph_alone_ ? 0 : model_share_;
   if (wipes_ && !photograph_alone_) request.wipe_px = static_cast<int>(mouse_px_.x());
@@ -85,6 +86,13 @@ PictureRequest App::MakeRequest() const {
   if (shows_written_ && written) {
     request.layers.push_back(
         {place_.InPicture(*written, pane_.width, pane_.height), StyleOf(kWrittenGrey, 1)});
+  }
+  const SessionPhotograph& photograph = session_.photographs()[photograph_];
+  const auto& news = session_.work(photograph_).alignment;
+  if (shows_rival_ && news && news->rival) {
+    const Camera rival = CameraFromTag(*news->rival, photograph.size.width, photograph.size.height);
+    request.layers.push_back(
+        {place_.InPicture(rival, pane_.width, pane_.height), StyleOf(kRivalPurple, 1.3)});
   }
   if (request.has_model) request.layers.push_back({request.camera, StyleOf(kCorrectedBlue, 1.3)});
   return request;

@@ -2,10 +2,7 @@
 // Part of Groundglass.
 #include "gui/document.h"
 
-#include "ask/survey.h"
-#include "scene/error.h"
-#include "scene/formats/registration_io.h"
-#include "scene/formats/scene_folder.h"
+#include "session/alignment.h"
 #include "session/journal.h"
 
 namespace groundglass {
@@ -13,13 +10,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void ReadTheScene(const fs::path& folder, const ModelOptions& options, Document& document) {
-  SceneOptions scene_options;
-  scene_options.model = options;
-  SceneCheck check = ScanScene(folder, scene_options);
-  if (check.scene.model.faces.empty() && !check.faults.empty()) throw Error(check.faults.front());
-  document.scene = std::move(check.scene);
-  document.journal_file = Journal::PlaceFor(folder);
+// Whether the run was given this tag. Numbers that the tag leaves to a lens file may differ.
+bool IsTagOf(const ViewTag& written, const Registration& registration, bool has_lens) {
+  const CameraParameters by = ParametersFromTag(written) - ParametersFromTag(registration.measured);
+  const int num_compared = has_lens ? kViewAngle : kNumCameraParameters;
+  return by.head(num_compared).cwiseAbs().maxCoeff() < 1e-6;
 }
 
 }  // namespace
@@ -29,37 +24,27 @@ Document OpenDocument(const WindowOptions& options) {
   Document document;
   document.title = folder.filename().empty() ? folder.parent_path().filename().string()
                                              : folder.filename().string();
-  if (fs::is_regular_file(folder)) {
-    document.textured = ReadTexturedModel(folder, options.model).textured;
-    document.scene.model = document.textured.model;
-    return document;
+  document.opened = OpenFolder(folder, options.scene_folder, options.model, true);
+  if (!document.opened.scene.folder.empty()) {
+    document.journal_file = Journal::PlaceFor(document.opened.scene.folder);
   }
-  if (!fs::is_directory(folder)) {
-    throw Error(folder, "no such file or folder; expected a scene, an output folder or a model");
-  }
-  const bool is_output =
-      fs::exists(folder / "registration.json") || fs::exists(folder / "model.glb");
-  if (!is_output || !options.scene_folder.empty()) {
-    ReadTheScene(is_output ? options.scene_folder : folder, options.model, document);
-    document.textured.model = document.scene.model;
-  }
-  if (is_output && fs::exists(folder / "model.glb")) {
-    TexturedModel textured = ReadTexturedModel(folder / "model.glb", options.model).textured;
-    document.textured = std::move(textured);
-    if (!IsSameModel(document.scene.model, document.textured.model)) {
-      document.scene.model = document.textured.model;
-    }
-  }
-  if (document.textured.model.faces.empty()) {
-    throw Error(folder, "has no model.glb; say where the scene is with --scene");
-  }
-  if (fs::exists(folder / "registration.json")) {
-    for (Registration& registration : ReadRegistrations(folder / "registration.json")) {
-      const std::string name = registration.name;
-      document.registrations[name] = std::move(registration);
-    }
+  for (const Registration& registration : document.opened.registrations) {
+    document.registrations[registration.name] = registration;
   }
   return document;
+}
+
+void StartFromTheRun(const Document& document, Session& session) {
+  for (const Registration& registration : document.opened.registrations) {
+    const auto photograph = session.FindPhotograph(registration.name);
+    if (!photograph || !HasCorrection(registration.verdict)) continue;
+    const auto& written = session.work(*photograph).tag;
+    const SessionPhotograph& of = session.photographs()[*photograph];
+    const bool is_as_large =
+        of.size.width == registration.width_px && of.size.height == registration.height_px;
+    if (!written || !is_as_large || !IsTagOf(*written, registration, of.lens.has_value())) continue;
+    session.StartFrom(*photograph, NewsOf(registration));
+  }
 }
 
 }  // namespace groundglass

@@ -3,29 +3,28 @@
 // Internal to gui.
 #pragma once
 
+#include "ask/opened_folder.h"
 #include "gui/window.h"
-#include "scene/camera.h"
-#include "scene/formats/scene.h"
-#include "scene/registration.h"
-#include "scene/textured_model.h"
+#include "session/session.h"
 
 #include <filesystem>
 #include <map>
 #include <string>
-#include <vector>
 
 namespace groundglass {
 
 // What the window shows, as it lies on the disk.
 struct Document {
   std::string title;
-  TexturedModel textured;  // with pages where there are some
-  Scene scene;             // its model is `textured`'s; without photographs for a model alone
-  std::filesystem::path journal_file;
-  // Of an output folder: the registrations, by photograph.
-  std::map<std::string, Registration> registrations;
+  OpenedFolder opened;
+  std::filesystem::path journal_file;                 // nowhere without a scene
+  std::map<std::string, Registration> registrations;  // by photograph
 };
 
 Document OpenDocument(const WindowOptions& options);
+
+// Lets the work on each photograph start from what the run found of it, where the run's tag is the
+// one that the scene still has. Those that were written anew since are left alone.
+void StartFromTheRun(const Document& document, Session& session);
 
 }  // namespace groundglass

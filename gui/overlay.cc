@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "gui/app.h"
+#include "gui/overlay_shapes.h"
 
 #include <imgui/imgui.h>
 
@@ -9,45 +10,8 @@
 namespace groundglass {
 namespace {
 
-// Okabe and Ito's colours; each thing has a shape of its own as well.
-constexpr ImU32 kYellow = IM_COL32(240, 228, 66, 255);
-constexpr ImU32 kVermilion = IM_COL32(213, 94, 0, 255);
-constexpr ImU32 kSkyBlue = IM_COL32(86, 180, 233, 255);
-constexpr ImU32 kGrey = IM_COL32(200, 200, 200, 255);
-constexpr ImU32 kHalo = IM_COL32(10, 10, 14, 220);
-constexpr ImU32 kGreen = IM_COL32(0, 158, 115, 255);
-
 ImVec2 OnScreen(const Pane& pane, const Eigen::Vector2d& pane_px) {
   return {static_cast<float>(pane.x + pane_px.x()), static_cast<float>(pane.y + pane_px.y())};
-}
-
-void Line(const ImVec2& from, const ImVec2& to, ImU32 colour, float width) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.AddLine(from, to, kHalo, width + 2);
-  list.AddLine(from, to, colour, width);
-}
-
-void Ring(const ImVec2& at, float radius, ImU32 colour) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.AddCircle(at, radius, kHalo, 16, 4);
-  list.AddCircle(at, radius, colour, 16, 2);
-}
-
-void Triangle(const ImVec2& at, float size, ImU32 colour) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImVec2 top(at.x, at.y - size);
-  const ImVec2 left(at.x - size, at.y + 0.7f * size);
-  const ImVec2 right(at.x + size, at.y + 0.7f * size);
-  list.AddTriangle(top, left, right, kHalo, 5);
-  list.AddTriangle(top, left, right, colour, 2.5f);
-}
-
-void Text(const ImVec2& at, ImU32 colour, const std::string& text) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  for (const ImVec2& by : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1)}) {
-    list.AddText(ImVec2(at.x + by.x, at.y + by.y), kHalo, text.c_str());
-  }
-  list.AddText(at, colour, text.c_str());
 }
 
 std::string Px(double value) {
@@ -63,9 +27,13 @@ void App::DrawOverlayLines() {
   list.PushClipRect(ImVec2(static_cast<float>(pane_.x), static_cast<float>(pane_.y)),
                     ImVec2(static_cast<float>(pane_.x + pane_.width),
                            static_cast<float>(pane_.y + pane_.height)));
+  if (!IsInside() && shows_ellipsoids_) DrawEllipsoids();
   if (!IsInside() && shows_stations_) DrawStations();
+  DrawFlight();
+  if (!IsInside() || model_share_ > 0) DrawLegend();
   if (CanTag()) DrawPins();
   if (CanTag()) DrawLoupe();
+  if (CanMask()) DrawMaskTools();
   DrawPlaces();
   list.PopClipRect();
 }
@@ -81,7 +49,7 @@ void App::DrawStations() {
     const Eigen::Vector3d apex = found->PositionInWorld();
     const auto apex_px = Project(camera, apex);
     if (!apex_px) continue;
-    const ImU32 colour = i == photograph_ ? kYellow : kSkyBlue;
+    const ImU32 colour = i == photograph_ ? kOverlayYellow : kOverlaySkyBlue;
     std::array<ImVec2, 4> corners;
     bool is_seen = true;
     for (int c = 0; c < 4; ++c) {
@@ -100,18 +68,18 @@ void App::DrawStations() {
         list.AddImageQuad(thumbnail->second.get(), corners[0], corners[1], corners[2], corners[3]);
       }
       for (int c = 0; c < 4; ++c) {
-        Line(from, corners[c], colour, 1);
-        Line(corners[c], corners[(c + 1) % 4], colour, 1.5f);
+        OverlayLine(from, corners[c], colour, 1);
+        OverlayLine(corners[c], corners[(c + 1) % 4], colour, 1.5f);
       }
     }
     if (written) {
       if (const auto was = Project(camera, written->PositionInWorld())) {
         const ImVec2 at = OnScreen(pane_, *was);
-        Line(at, from, kGrey, 1);
-        list.AddRect(ImVec2(at.x - 3, at.y - 3), ImVec2(at.x + 3, at.y + 3), kGrey);
+        OverlayLine(at, from, kOverlayGrey, 1);
+        list.AddRect(ImVec2(at.x - 3, at.y - 3), ImVec2(at.x + 3, at.y + 3), kOverlayGrey);
       }
     }
-    Text(ImVec2(from.x + 5, from.y + 3), colour, session_.photographs()[i].name);
+    OverlayText(ImVec2(from.x + 5, from.y + 3), colour, session_.photographs()[i].name);
   }
 }
 
@@ -122,43 +90,47 @@ void App::DrawPins() {
   for (const VisibleCorner& corner : Corners()) {
     const ImVec2 at = OnScreen(pane_, corner.image_px);
     const bool is_armed = armed_point_ && *armed_point_ == corner.point;
-    list.AddRectFilled(ImVec2(at.x - 2, at.y - 2), ImVec2(at.x + 2, at.y + 2), kHalo);
-    list.AddRectFilled(ImVec2(at.x - 1, at.y - 1), ImVec2(at.x + 1, at.y + 1), kSkyBlue);
-    if (is_armed) Ring(at, 9, kSkyBlue);
+    list.AddRectFilled(ImVec2(at.x - 2, at.y - 2), ImVec2(at.x + 2, at.y + 2), kOverlayHalo);
+    list.AddRectFilled(ImVec2(at.x - 1, at.y - 1), ImVec2(at.x + 1, at.y + 1), kOverlaySkyBlue);
+    if (is_armed) OverlayRing(at, 9, kOverlaySkyBlue);
   }
   for (size_t i = 0; i < pins.points.size(); ++i) {
     const PointPin& pin = pins.points[i];
     const ImVec2 at = OnScreen(pane_, place_.InPicture(pin.image_px));
     const bool is_bad = solution && solution->points[i].is_bad;
-    const ImU32 colour = is_bad ? kVermilion : pin.use == PinUse::kOff ? kGrey : kYellow;
+    const ImU32 colour = is_bad                    ? kOverlayVermilion
+                         : pin.use == PinUse::kOff ? kOverlayGrey
+                                                   : kOverlayYellow;
     if (is_bad) {
-      Triangle(at, 9, colour);
+      OverlayTriangle(at, 9, colour);
     } else {
-      Ring(at, pin_ == static_cast<int>(i) ? 9.0f : 6.0f, colour);
+      OverlayRing(at, pin_ == static_cast<int>(i) ? 9.0f : 6.0f, colour);
     }
     if (!solution || !solution->points[i].seen_px) continue;
     // Ten times as long as it is, so that it is seen.
     const Eigen::Vector2d by = 10 * place_.scale * solution->points[i].residual_px;
-    Line(at,
-         ImVec2(at.x + static_cast<float>(by.x()), at.y + static_cast<float>(by.y())),
-         colour,
-         1);
-    Text(ImVec2(at.x + 11, at.y - 8),
-         colour,
-         std::to_string(i + 1) + "  " + Px(solution->points[i].size_px));
+    OverlayLine(at,
+                ImVec2(at.x + static_cast<float>(by.x()), at.y + static_cast<float>(by.y())),
+                colour,
+                1);
+    OverlayText(ImVec2(at.x + 11, at.y - 8),
+                colour,
+                std::to_string(i + 1) + "  " + Px(solution->points[i].size_px));
   }
   for (size_t i = 0; i < pins.lines.size(); ++i) {
     const ImVec2 first = OnScreen(pane_, place_.InPicture(pins.lines[i].first_px));
     const ImVec2 second = OnScreen(pane_, place_.InPicture(pins.lines[i].second_px));
     const bool is_bad = solution && solution->lines[i].is_bad;
-    const ImU32 colour = is_bad ? kVermilion : pins.lines[i].use == PinUse::kOff ? kGrey : kYellow;
-    Line(first, second, colour, 2);
-    Ring(first, 4, colour);
-    Ring(second, 4, colour);
+    const ImU32 colour = is_bad                              ? kOverlayVermilion
+                         : pins.lines[i].use == PinUse::kOff ? kOverlayGrey
+                                                             : kOverlayYellow;
+    OverlayLine(first, second, colour, 2);
+    OverlayRing(first, 4, colour);
+    OverlayRing(second, 4, colour);
     if (solution) {
-      Text(ImVec2((first.x + second.x) / 2 + 8, (first.y + second.y) / 2 - 8),
-           colour,
-           Px(solution->lines[i].size_px));
+      OverlayText(ImVec2((first.x + second.x) / 2 + 8, (first.y + second.y) / 2 - 8),
+                  colour,
+                  Px(solution->lines[i].size_px));
     }
   }
 }
@@ -185,7 +157,7 @@ void App::DrawLoupe() {
   const float y = static_cast<float>(pane_.y + 10);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.AddImage(loupe_.get(), ImVec2(x, y), ImVec2(x + kLoupePx, y + kLoupePx));
-  list.AddRect(ImVec2(x, y), ImVec2(x + kLoupePx, y + kLoupePx), kYellow);
+  list.AddRect(ImVec2(x, y), ImVec2(x + kLoupePx, y + kLoupePx), kOverlayYellow);
 }
 
 void App::DrawPlaces() {
@@ -195,11 +167,12 @@ void App::DrawPlaces() {
     const auto at = Project(camera, places_[i].point_in_world);
     if (!at) continue;
     seen.push_back(OnScreen(pane_, *at));
-    Ring(seen.back(), 7, kGreen);
-    Text(ImVec2(seen.back().x + 10, seen.back().y - 8), kGreen, std::to_string(i + 1));
+    OverlayRing(seen.back(), 7, kOverlayGreen);
+    OverlayText(
+        ImVec2(seen.back().x + 10, seen.back().y - 8), kOverlayGreen, std::to_string(i + 1));
   }
-  for (size_t i = 0; i + 1 < seen.size(); ++i) Line(seen[i], seen[i + 1], kGreen, 2);
-  if (seen.size() == 3) Line(seen[2], seen[0], kGreen, 2);
+  for (size_t i = 0; i + 1 < seen.size(); ++i) OverlayLine(seen[i], seen[i + 1], kOverlayGreen, 2);
+  if (seen.size() == 3) OverlayLine(seen[2], seen[0], kOverlayGreen, 2);
 }
 
 }  // namespace groundglass

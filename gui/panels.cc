@@ -44,10 +44,10 @@ void App::DrawPanels() {
 void App::DrawTopBar() {
   BeginPanel("top", 0, 0, window_.width_px(), pane_.y, ImGuiWindowFlags_NoScrollbar);
   ImGui::SetCursorPosY(5);
-  constexpr std::array<WindowMode, 3> kModes = {
-      WindowMode::kLook, WindowMode::kTag, WindowMode::kAsk};
-  constexpr std::array<Action, 3> kActions = {
-      Action::kLookMode, Action::kTagMode, Action::kAskMode};
+  constexpr std::array<WindowMode, 4> kModes = {
+      WindowMode::kLook, WindowMode::kTag, WindowMode::kAsk, WindowMode::kMask};
+  constexpr std::array<Action, 4> kActions = {
+      Action::kLookMode, Action::kTagMode, Action::kAskMode, Action::kMaskMode};
   for (size_t i = 0; i < kModes.size(); ++i) {
     const std::string label =
         "F" + std::to_string(i + 2) + " " + std::string(WindowModeName(kModes[i]));
@@ -60,7 +60,8 @@ void App::DrawTopBar() {
   std::string title = document_.title;
   if (photograph_ >= 0) {
     title += ": " + session_.photographs()[photograph_].name;
-    if (session_.IsUnsaved(photograph_)) title += "  \u25CF unsaved";
+    if (session_.IsUnsaved(photograph_) || masks_.IsUnsaved(photograph_))
+      title += "  \u25CF unsaved";
   }
   ImGui::Text("   %s", title.c_str());
   window_.SetTitle(title + " - groundglass");
@@ -85,14 +86,18 @@ void App::DrawPhotographs() {
              : verdict == Verdict::kReview ? "\u25B2 "
                                            : "\u2717 ";
       state = VerdictName(verdict);
+      const bool is_other_tag = HasCorrection(verdict) && session_.UndoDepth(i) == 0;
+      if (is_other_tag) state += ", tag changed since";
     }
     if (work.alignment) state = VerdictName(work.alignment->verdict);
+    if (session_.IsAsFound(i)) state += " (run)";
     const std::string fault = !photograph.fault.empty() ? photograph.fault : cache_.FaultOf(i);
     if (!fault.empty()) {
       line = "\u2717 ";
       state = "cannot be read";
     }
-    line += photograph.name + "  " + state + (session_.IsUnsaved(i) ? " \u25CF" : "");
+    line += photograph.name + "  " + state +
+            (session_.IsUnsaved(i) || masks_.IsUnsaved(i) ? " \u25CF" : "");
     if (const auto thumbnail = thumbnails_.find(i); thumbnail != thumbnails_.end()) {
       int width = 0;
       int height = 0;
@@ -119,19 +124,33 @@ void App::DrawContext() {
     case WindowMode::kAsk:
       DrawAskPanel();
       break;
+    case WindowMode::kMask:
+      DrawMaskPanel();
+      break;
   }
 }
 
 void App::DrawLookPanel() {
-  const auto choice = [&](const char* label, DrawMode mode) {
-    if (ImGui::RadioButton(label, draw_mode_ == mode)) draw_mode_ = mode;
+  const auto faces = [&](const char* label, DrawMode mode) {
+    const bool is_chosen = map_ == LookMap::kNone && draw_mode_ == mode;
+    if (ImGui::RadioButton(label, is_chosen)) ShowFaces(mode);
   };
-  choice("1 wire", DrawMode::kWireframe);
-  choice("2 shaded", DrawMode::kShaded);
-  choice("3 textured", DrawMode::kTextured);
-  choice("4 face numbers", DrawMode::kLabels);
+  const auto map = [&](const char* label, LookMap which) {
+    if (ImGui::RadioButton(label, map_ == which)) ShowMap(which);
+  };
+  faces("1 wire", DrawMode::kWireframe);
+  faces("2 shaded", DrawMode::kShaded);
+  faces("3 textured", DrawMode::kTextured);
+  faces("4 face numbers", DrawMode::kLabels);
+  map("5 coverage", LookMap::kCoverage);
+  map("6 provenance", LookMap::kProvenance);
+  map(document_.opened.textured.pages.empty() ? "7 pixel size" : "7 texel size",
+      LookMap::kTexelSize);
+  map("8 uncertainty", LookMap::kUncertainty);
+  map("9 tiles of 1988", LookMap::kTiles1988);
   ImGui::Checkbox("O edges", &shows_edges_);
   ImGui::Checkbox("P photographs at their stations", &shows_stations_);
+  ImGui::Checkbox("E 95 % ellipsoids of stations", &shows_ellipsoids_);
   if (ImGui::Checkbox("G walk", &is_walking_) && is_walking_) {
     MoveEye(Walk(eye_, session_.model(), visibility_, 0, 0));
   }
@@ -142,14 +161,18 @@ void App::DrawLookPanel() {
     ImGui::Checkbox("C as written too (grey)", &shows_written_);
   }
   ImGui::Separator();
-  if (picked_face_) {
+  if (picked_) {
+    const int face = picked_->face;
     const PolygonModel& model = session_.model();
-    ImGui::TextWrapped("%s", DescribeFace(model, *picked_face_).c_str());
+    ImGui::TextWrapped("%s", DescribeFace(model, face).c_str());
     ImGui::TextWrapped(
-        "%.2f square %s", ComputeFaceArea(model, *picked_face_), UnitName(model.unit).c_str());
-    if (const auto texel = TexelSize(survey_, *picked_face_)) {
+        "%.2f square %s", ComputeFaceArea(model, face), UnitName(model.unit).c_str());
+    if (const auto texel = TexelSize(survey_, face)) {
       ImGui::TextWrapped(
           "texels of %.4f x %.4f %s", (*texel)[0], (*texel)[1], UnitName(model.unit).c_str());
+    }
+    if (const std::string here = DescribeMapAt(*picked_); !here.empty()) {
+      ImGui::TextWrapped("%s", here.c_str());
     }
   } else {
     ImGui::TextWrapped("Click a face for its name and area.");
@@ -178,6 +201,11 @@ std::string App::StatusLine() const {
            "F1 keys";
   }
   if (CanTag()) return TagStatusLine();
+  if (CanMask()) {
+    return "drag paints, right drag erases \u00B7 Shift+drag: lasso \u00B7 double click: up to "
+           "edges "
+           "\u00B7 [ ] size \u00B7 Ctrl+Z \u00B7 Ctrl+S save \u00B7 Esc back";
+  }
   if (IsInside()) {
     return "wheel zooms, drag moves the photograph \u00B7 , . fade \u00B7 B photograph alone "
            "\u00B7 V wipe \u00B7 F3 tag \u00B7 Esc back \u00B7 F1 keys";

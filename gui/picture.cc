@@ -2,9 +2,12 @@
 // Part of Groundglass.
 #include "gui/picture.h"
 
+#include "viewer/tile_renderer.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -45,6 +48,26 @@ Image8 PlacePhotograph(const PictureRequest& request) {
     cv::warpAffine(from, to, placed, to.size(), how, cv::BORDER_TRANSPARENT);
   }
   return picture;
+}
+
+// Hatches in orange what the mask leaves out, so that both pattern and colour say it.
+void HatchMask(const PictureRequest& request, Image8& picture) {
+  const Image8& mask = *request.mask;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const Eigen::Vector2d at = request.place.InPhotograph({x + 0.5, y + 0.5});
+      const bool is_inside =
+          at.x() >= 0 && at.y() >= 0 && at.x() < mask.width && at.y() < mask.height;
+      if (!is_inside || *mask.At(static_cast<int>(at.x()), static_cast<int>(at.y())) == 0) continue;
+      constexpr std::array<int, 3> kOrange = {230, 159, 0};
+      const int share_of_8 = (x + y) % 12 < 4 ? 7 : 3;
+      uint8_t* pixel = picture.At(x, y);
+      for (int c = 0; c < 3; ++c) {
+        pixel[c] =
+            static_cast<uint8_t>((kOrange[c] * share_of_8 + pixel[c] * (8 - share_of_8)) / 8);
+      }
+    }
+  }
 }
 
 // The model over the photograph: faded, or whole to the right of the wipe.
@@ -89,9 +112,10 @@ bool IsSamePicture(const PictureRequest& a, const PictureRequest& b) {
     return IsSameCamera(first.camera, second.camera) && first.style.colour == second.style.colour;
   };
   return a.width_px == b.width_px && a.height_px == b.height_px && a.quality == b.quality &&
-         a.mode == b.mode && a.edges == b.edges && a.has_model == b.has_model &&
-         IsSameCamera(a.camera, b.camera) && a.photograph == b.photograph && a.place == b.place &&
-         a.model_share == b.model_share && a.wipe_px == b.wipe_px &&
+         a.mode == b.mode && a.coloured == b.coloured && a.tiles == b.tiles && a.mask == b.mask &&
+         a.edges == b.edges && a.has_model == b.has_model && IsSameCamera(a.camera, b.camera) &&
+         a.photograph == b.photograph && a.place == b.place && a.model_share == b.model_share &&
+         a.wipe_px == b.wipe_px &&
          std::equal(
              a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(), is_same_layer);
 }
@@ -113,13 +137,27 @@ PictureMaker::PictureMaker(const TexturedModel& model)
       visibility_(model.model),
       edges_(FindModelEdges(model.model)) {}
 
+Image8 PictureMaker::DrawFrom(const Camera& camera, const PictureRequest& request) {
+  if (request.tiles) {
+    TileRenderer tiles(camera, request.quality == FrameQuality::kAtRest ? 2 : 1);
+    for (const MappedTiles& file : *request.tiles) tiles.Draw(file.Tiles());
+    return tiles.Picture();
+  }
+  if (!request.coloured) return renderer_.Render(camera, OptionsFor(request));
+  if (coloured_ != request.coloured) {
+    coloured_renderer_.emplace(*request.coloured);
+    coloured_ = request.coloured;
+  }
+  return coloured_renderer_->Render(camera, OptionsFor(request));
+}
+
 Image8 PictureMaker::DrawTheModel(const PictureRequest& request) {
   const double scale = FrameScale(request.quality);
-  if (scale == 1) return renderer_.Render(request.camera, OptionsFor(request));
+  if (scale == 1) return DrawFrom(request.camera, request);
   const Camera smaller = ResizedCamera(request.camera,
                                        std::max(1, static_cast<int>(request.width_px * scale)),
                                        std::max(1, static_cast<int>(request.height_px * scale)));
-  Image8 drawn = renderer_.Render(smaller, OptionsFor(request));
+  Image8 drawn = DrawFrom(smaller, request);
   Image8 picture(request.width_px, request.height_px, 3);
   cv::Mat to = Wrapped(picture);
   cv::resize(Wrapped(drawn), to, to.size(), 0, 0, cv::INTER_LINEAR);
@@ -135,6 +173,7 @@ Picture PictureMaker::Make(const PictureRequest& request) {
                                 : Image8(request.width_px, request.height_px, 3, 40);
   } else {
     picture = PlacePhotograph(request);
+    if (request.mask) HatchMask(request, picture);
     if (shows_model) {
       Image8 model = DrawTheModel(request);
       Mix(request, model, picture);

@@ -3,6 +3,7 @@
 // Internal to gui.
 #pragma once
 
+#include "scene/formats/tile_file.h"
 #include "session/frame_governor.h"
 #include "viewer/edge_drawing.h"
 #include "viewer/renderer.h"
@@ -11,6 +12,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace groundglass {
@@ -43,10 +45,15 @@ struct PictureRequest {
   int height_px = 0;
   FrameQuality quality = FrameQuality::kAtRest;
   DrawMode mode = DrawMode::kTextured;
+  // In place of the model's own texture; null: that.
+  std::shared_ptr<const TexturedModel> coloured;
+  // In place of its faces: tiles of the database of 1988; null: faces.
+  std::shared_ptr<const std::vector<MappedTiles>> tiles;
   bool edges = false;                        // over the model
   bool has_model = true;                     // else only what follows
   Camera camera;                             // of the model, of the picture's size
   std::shared_ptr<const Image8> photograph;  // null: the model alone
+  std::shared_ptr<const Image8> mask;  // of the photograph's size: what is not to be looked at
   PhotographPlace place;
   double model_share = 1;  // of the model over the photograph, 0 to 1
   int wipe_px = -1;        // from this column on the model is whole; -1: no wipe
@@ -72,9 +79,12 @@ class PictureMaker {
 
  private:
   Image8 DrawTheModel(const PictureRequest& request);
+  Image8 DrawFrom(const Camera& camera, const PictureRequest& request);
 
   const TexturedModel& model_;
   Renderer renderer_;
+  std::shared_ptr<const TexturedModel> coloured_;  // what coloured_renderer_ draws
+  std::optional<Renderer> coloured_renderer_;
   Visibility visibility_;
   std::vector<ModelEdge> edges_;
 };

@@ -44,7 +44,7 @@ PlanFrame App::MakePlanFrame() const {
   const double room = 0.6 * box.Diagonal();
   box.min.array() -= room;
   box.max.array() += room;
-  for (const Photograph& photograph : document_.scene.photographs) {
+  for (const Photograph& photograph : document_.opened.scene.photographs) {
     const Eigen::Vector3d at = WorldFromSite(photograph.tag.position_in_site);
     // A slip of the pen must not make the model a dot.
     if ((at - box.Center()).norm() > 3 * box.Diagonal()) continue;

@@ -27,10 +27,12 @@ void App::DrawQuestions() {
     if (ImGui::Button("Save all") || says_yes_) {
       bool is_saved = true;
       for (int i = 0; i < static_cast<int>(session_.photographs().size()); ++i) {
-        const SaveResult result = session_.Save(i);
-        if (result.kind == SaveResult::Kind::kNothingToSave) continue;
-        message_ = result.message;
-        is_saved = is_saved && result.kind == SaveResult::Kind::kSaved;
+        const auto note = [&](const SaveResult& result) {
+          message_ = result.message;
+          is_saved = is_saved && result.kind == SaveResult::Kind::kSaved;
+        };
+        if (session_.IsUnsaved(i)) note(session_.Save(i));
+        if (masks_.IsUnsaved(i)) note(masks_.Save(i));
       }
       asks_to_quit_ = false;
       is_open_ = !is_saved;
@@ -51,6 +53,15 @@ void App::DrawQuestions() {
     }
     ImGui::SameLine();
     if (ImGui::Button("Cancel") || says_no_) asks_to_overwrite_ = false;
+  });
+  Ask("Mask changed on disk", asks_to_overwrite_mask_, [&] {
+    ImGui::Text("Somebody else has changed this mask since it was read.");
+    if (ImGui::Button("Keep mine") || says_yes_) {
+      asks_to_overwrite_mask_ = false;
+      SaveMask(true);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel") || says_no_) asks_to_overwrite_mask_ = false;
   });
   Ask("Unsaved work of an earlier session", offers_left_work_, [&] {
     ImGui::Text("There is unsaved work of %s.", session_.LeftWorkIsOf().c_str());

@@ -70,18 +70,31 @@ void App::DrawTagPanel() {
   }
   bool is_cropped = IsCropped();
   if (ImGui::Checkbox("X the picture was cut", &is_cropped)) ToggleCropped();
-  if (ImGui::Button("A align")) Align();
+  if (alignment_.IsRunning()) {
+    if (ImGui::Button("Esc stop")) StopAlignment();
+  } else if (ImGui::Button("A align")) {
+    Align();
+  }
   ImGui::SameLine();
   if (ImGui::Button("Ctrl+S save")) Save();
+  if (session_.UndoDepth(photograph_) > 0 && ImGui::Button("Ctrl+Home back to the notebook")) {
+    BackToNotebook();
+    return;
+  }
+  if (!work.overruled.empty()) {
+    ImGui::Separator();
+    ImGui::TextWrapped("taken against the verdict: %s", work.overruled.c_str());
+  }
   if (work.alignment) {
     ImGui::Separator();
+    if (session_.IsAsFound(photograph_)) ImGui::TextWrapped("As the run found it.");
     DrawNews(*work.alignment);
     if (work.accepted) {
-      ImGui::TextWrapped(
-          "taken%s%s", work.overruled.empty() ? "" : " although: ", work.overruled.c_str());
+      if (work.overruled.empty()) ImGui::TextWrapped("taken");
     } else if (ImGui::Button("Ctrl+Shift+Enter take it all the same")) {
       Accept(true);
     }
+    if (work.alignment->rival) ImGui::Checkbox("R the rival (purple)", &shows_rival_);
   }
   const auto& solution = session_.Solution(photograph_);
   if (!solution) return;
@@ -126,13 +139,15 @@ std::string App::TagStatusLine() const {
     return "on the plan: press where it stood, drag to what it looked at \u00B7 Esc back \u00B7 F1 "
            "keys";
   }
-  if (alignment_.valid()) return "aligning ... the window stays alive";
+  if (alignment_.IsRunning())
+    return "aligning ... \u00B7 Esc stops it \u00B7 the window stays alive";
   if (armed_point_ && pin_is_due_) {
     return "click where this corner is in the photograph \u00B7 Enter: where it is seen now \u00B7 "
            "Esc lets it go";
   }
   if (pin_)
-    return "arrows move the pin by 0.1 px, Shift 1, Ctrl 10 \u00B7 U use \u00B7 Delete \u00B7 Esc "
+    return "arrows move the pin by 0.1 px, Shift 1, Ctrl 10 \u00B7 S snaps \u00B7 U use \u00B7 "
+           "Delete \u00B7 Esc "
            "lets it go";
   const auto& solution = session_.Solution(photograph_);
   if (solution && solution->worst) {

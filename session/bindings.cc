@@ -15,11 +15,12 @@ constexpr auto kBindings = std::to_array<Binding>({
     {kEverywhere, kLookMode, "F2", "Look: move around the model"},
     {kEverywhere, kTagMode, "F3", "Tag: find a photograph's camera"},
     {kEverywhere, kAskMode, "F4", "Ask: what is where, and who shows it"},
-    {kEverywhere, kUndo, "Ctrl+Z", "undo, for the photograph that is shown"},
+    {kEverywhere, kMaskMode, "F5", "Mask: paint over what is not to be looked at"},
+    {kEverywhere, kUndo, "Ctrl+Z", "undo, for the photograph that is shown; in Mask its mask"},
     {kEverywhere, kRedo, "Ctrl+Y Ctrl+Shift+Z", "redo"},
-    {kEverywhere, kSave, "Ctrl+S", "save the photograph's view file and pins"},
+    {kEverywhere, kSave, "Ctrl+S", "save the photograph's view file and pins; in Mask its mask"},
     {kEverywhere, kQuit, "Ctrl+Q", "close the window"},
-    {kEverywhere, kCancel, "Escape", "let go, then leave the photograph"},
+    {kEverywhere, kCancel, "Escape", "stop an alignment; else let go, then leave the photograph"},
     {kEverywhere, kHidePanels, "F11", "hide the panels, or show them"},
     {kEverywhere, kScreenshot, "F12", "a picture of the window, into the folder it was started in"},
     {kEverywhere, kLargerText, "Ctrl+= Ctrl+Shift+=", "larger text"},
@@ -32,6 +33,15 @@ constexpr auto kBindings = std::to_array<Binding>({
     {kLook, kShaded, "2", "shaded"},
     {kLook, kTextured, "3", "textured"},
     {kLook, kNumbers, "4", "face numbers"},
+    {kLook, kCoverage, "5", "coverage: how many photographs show each place"},
+    {kLook, kProvenance, "6", "provenance: which photograph each texel comes from"},
+    {kLook, kTexelSize, "7", "texel size; without a texture, the finest photograph's pixel"},
+    {kLook, kUncertainty, "8", "uncertainty: how sure photographs are of each place"},
+    {kLook, kTiles1988, "9", "tiles of the database of 1988"},
+    {kLook, kEllipsoids, "E", "95 % ellipsoids of where cameras stood, on or off"},
+    {kLook, kKeyframe, "K", "a keyframe from here, into flight/"},
+    {kLook, kPlay, "Shift+K", "play the flight through the keyframes, or stop"},
+    {kLook, kRemoveKeyframe, "Ctrl+K", "take the last keyframe back"},
     {kLook, kEdges, "O", "edges over the faces, on or off"},
     {kLook, kStations, "P", "photographs at their stations, on or off"},
     {kLook, kFrame, "F", "look at the face that was picked"},
@@ -63,8 +73,15 @@ constexpr auto kBindings = std::to_array<Binding>({
     {kTag, kCropped, "X", "the picture was cut: its middle is unknown, or known again"},
     {kTag, kAlign, "A", "align: registration from here"},
     {kTag, kAccept, "Ctrl+Return", "take what was found"},
+    {kTag, kSnap, "S", "the pin onto the photograph's corner or edge within 3 px"},
+    {kTag, kRival, "R", "the rival of a camera in review, on or off"},
+    {kTag, kNotebook, "Ctrl+Home", "back to the notebook: the tag as it was written"},
     {kTag, kOverrule, "Ctrl+Shift+Return", "take it against the verdict"},
     {kAsk, kCopyCsv, "Ctrl+C", "copy the answer as CSV"},
+    {kMask, kBrushLarger, "]", "a larger brush"},
+    {kMask, kBrushSmaller, "[", "a smaller brush"},
+    {kMask, kEraserLarger, "Shift+]", "a larger eraser"},
+    {kMask, kEraserSmaller, "Shift+[", "a smaller eraser"},
 });
 
 bool HasKey(std::string_view keys, std::string_view key) {
@@ -79,13 +96,13 @@ bool HasKey(std::string_view keys, std::string_view key) {
 }  // namespace
 
 std::string_view WindowModeName(WindowMode mode) {
-  constexpr std::array<std::string_view, 3> kNames = {"Look", "Tag", "Ask"};
+  constexpr std::array<std::string_view, 4> kNames = {"Look", "Tag", "Ask", "Mask"};
   return kNames[static_cast<size_t>(mode)];
 }
 
 std::string_view BindingPlaceName(BindingPlace place) {
-  constexpr std::array<std::string_view, 5> kNames = {
-      "Everywhere", "Look", "In a photograph", "Tag", "Ask"};
+  constexpr std::array<std::string_view, 6> kNames = {
+      "Everywhere", "Look", "In a photograph", "Tag", "Ask", "Mask"};
   return kNames[static_cast<size_t>(place)];
 }
 

@@ -8,7 +8,7 @@
 
 namespace groundglass {
 
-enum class WindowMode { kLook, kTag, kAsk };
+enum class WindowMode { kLook, kTag, kAsk, kMask };
 std::string_view WindowModeName(WindowMode mode);
 
 // Everything that a key does in the window.
@@ -17,6 +17,7 @@ enum class Action {
   kLookMode,
   kTagMode,
   kAskMode,
+  kMaskMode,
   kUndo,
   kRedo,
   kSave,
@@ -34,6 +35,15 @@ enum class Action {
   kShaded,
   kTextured,
   kNumbers,
+  kCoverage,
+  kProvenance,
+  kTexelSize,
+  kUncertainty,
+  kTiles1988,
+  kEllipsoids,
+  kKeyframe,
+  kPlay,
+  kRemoveKeyframe,
   kEdges,
   kStations,
   kPlan,
@@ -61,12 +71,19 @@ enum class Action {
   kAlign,
   kAccept,
   kOverrule,
+  kNotebook,
+  kSnap,
+  kRival,
   kNudge,
   kCopyCsv,
+  kBrushLarger,
+  kBrushSmaller,
+  kEraserLarger,
+  kEraserSmaller,
 };
 
 // Where a binding holds.
-enum class BindingPlace { kEverywhere, kLook, kPhotograph, kTag, kAsk };
+enum class BindingPlace { kEverywhere, kLook, kPhotograph, kTag, kAsk, kMask };
 std::string_view BindingPlaceName(BindingPlace place);
 
 // One table for input, F1 and the documentation.

@@ -48,7 +48,8 @@ Json JsonOfNews(const AlignmentNews& news) {
           {"vertex_sigma_px", news.vertex_sigma_px},
           {"rms_px", JsonOfOptional(news.rms_px)},
           {"margin_nats", JsonOfOptional(news.margin_nats)},
-          {"undetermined", news.undetermined}};
+          {"undetermined", news.undetermined},
+          {"rival", JsonOfTag(news.rival)}};
 }
 
 AlignmentNews NewsOfJson(const Json& json) {
@@ -61,6 +62,7 @@ AlignmentNews NewsOfJson(const Json& json) {
   news.rms_px = NumberOfJson(json.at("rms_px"));
   news.margin_nats = NumberOfJson(json.at("margin_nats"));
   json.at("undetermined").get_to(news.undetermined);
+  news.rival = TagOfJson(json.value("rival", Json()));
   return news;
 }
 

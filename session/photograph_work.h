@@ -21,6 +21,7 @@ struct AlignmentNews {
   std::optional<double> rms_px;
   std::optional<double> margin_nats;
   std::vector<std::string> undetermined;
+  std::optional<ViewTag> rival = {};  // of one in review: the camera that it may have instead
 
   bool operator==(const AlignmentNews&) const = default;
 };
@@ -31,7 +32,8 @@ struct PhotographWork {
   Pins pins;
   std::optional<AlignmentNews> alignment;  // the last one, not yet taken
   std::optional<ViewTag> accepted;         // the camera that was taken, from there or by a person
-  std::string overruled;                   // why, where it was taken against the verdict
+  // Why, where it was taken against the verdict; the view file keeps it.
+  std::string overruled;
 
   bool operator==(const PhotographWork&) const = default;
 };

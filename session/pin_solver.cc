@@ -37,14 +37,14 @@ int CountUsed(const Pins& pins) {
 }
 
 // The prior of one or two pins: what they cannot tell stays as it is.
-void HoldBack(int num_pins, CameraPrior& prior) {
+void HoldBack(int num_pins, const PinSolverOptions& options, CameraPrior& prior) {
   const CameraParameters sigmas = prior.sigmas;
   CameraCovariance root = CameraCovariance::Zero();
   // Aiming is free within a half turn: it is what the pin is there for.
-  root(kYaw, kYaw) = std::max(sigmas[kYaw], 45.0);
-  root(kPitch, kPitch) = std::max(sigmas[kPitch], 20.0);
+  root(kYaw, kYaw) = std::max(sigmas[kYaw], options.aim_yaw_deg);
+  root(kPitch, kPitch) = std::max(sigmas[kPitch], options.aim_pitch_deg);
   if (num_pins > 1) {
-    root(kRoll, kRoll) = std::max(sigmas[kRoll], 5.0);
+    root(kRoll, kRoll) = std::max(sigmas[kRoll], options.aim_roll_deg);
     const double yaw = RadiansFromDegrees(prior.mean[kYaw]);
     const double pitch = RadiansFromDegrees(prior.mean[kPitch]);
     const Eigen::Vector3d along(
@@ -129,12 +129,12 @@ double InSigmas(const Eigen::Vector2d& residual_px,
                 const Eigen::Matrix<double, 2, kNumCameraParameters>& jacobian,
                 const CameraCovariance& covariance,
                 double sigma_px,
-                bool is_used) {
+                bool is_used,
+                double least_variance_share) {
   const Eigen::Matrix2d of_camera = jacobian * covariance * jacobian.transpose();
   const Eigen::Matrix2d of_pin = Eigen::Matrix2d::Identity() * sigma_px * sigma_px;
   Eigen::Matrix2d expected = is_used ? Eigen::Matrix2d(of_pin - of_camera) : of_pin + of_camera;
-  // A pin that alone determines something has no residual to be judged by.
-  expected += 0.02 * of_pin;
+  expected += least_variance_share * of_pin;
   return std::sqrt(std::max(0.0, residual_px.dot(expected.inverse() * residual_px) / 2));
 }
 
@@ -149,7 +149,8 @@ void FillResiduals(const Pins& pins,
                                jacobian,
                                solution.covariance,
                                pin.sigma_px,
-                               pin.use == PinUse::kUsed);
+                               pin.use == PinUse::kUsed,
+                               options.least_variance_share);
     residual.is_bad = pin.use != PinUse::kOff && residual.sigmas > options.bad_pin_sigmas;
     if (pin.use != PinUse::kUsed) return;
     squares += residual.size_px * residual.size_px;
@@ -211,6 +212,10 @@ void PinSolverOptions::Check() const {
   CheckFromTo(max_iterations, 1, 10000, "pin solver options: max_iterations");
   CheckAbove(bad_pin_sigmas, 0, "pin solver options: bad_pin_sigmas");
   CheckFromTo(free_share, 0, 1, "pin solver options: free_share");
+  CheckAbove(aim_yaw_deg, 0, "pin solver options: aim_yaw_deg");
+  CheckAbove(aim_pitch_deg, 0, "pin solver options: aim_pitch_deg");
+  CheckAbove(aim_roll_deg, 0, "pin solver options: aim_roll_deg");
+  CheckFromTo(least_variance_share, 1e-6, 1, "pin solver options: least_variance_share");
   prior.Check();
 }
 
@@ -229,7 +234,7 @@ PinSolution SolvePins(const ViewTag& tag,
   solution.prior_sigmas = prior.sigmas;
   const CameraCovariance all_known = prior.root * prior.root.transpose();
   const int num_used = CountUsed(pins);
-  if (num_used == 1 || num_used == 2) HoldBack(num_used, prior);
+  if (num_used == 1 || num_used == 2) HoldBack(num_used, options, prior);
   Minimum best;
   for (const CameraParameters& from : Starts(prior, start, pins)) {
     const Minimum found = Minimise(pins, prior, WhitenedOf(prior, from), options);
@@ -280,6 +285,11 @@ void RoughPlaceOptions::Check() const {
   CheckAbove(view_angle_sigma_deg, 0, name + "view_angle_sigma_deg");
   CheckAbove(shift, 0, name + "shift");
   CheckAbove(cropped_shift, 0, name + "cropped_shift");
+  CheckAbove(cropped_from, 0, name + "cropped_from");
+}
+
+bool IsOfCroppedPicture(const ViewTag& tag, const RoughPlaceOptions& options) {
+  return tag.sigmas.shift && *tag.sigmas.shift > options.cropped_from;
 }
 
 ViewTag RoughTag(const Eigen::Vector3d& stood_in_world,

@@ -21,6 +21,14 @@ struct PinSolverOptions {
   double bad_pin_sigmas = 3;
   // A number that pins make so much surer than it was is free; else what was known holds it.
   double free_share = 0.7;
+  // One or two pins aim a camera that nobody has aimed: one standard deviation of that, degrees,
+  // unless the tag is less sure still. Roll is free from the second pin on.
+  double aim_yaw_deg = 45;
+  double aim_pitch_deg = 20;
+  double aim_roll_deg = 5;
+  // A pin that alone determines something has no residual to be judged by: this share of its own
+  // variance stays in what its residual may be.
+  double least_variance_share = 0.02;
   // What tags are taken to be sure of that do not say it.
   PriorOptions prior;
 
@@ -84,9 +92,12 @@ struct RoughPlaceOptions {
   double view_angle_sigma_deg = 12;
   double shift = 0.02;          // as a frame is
   double cropped_shift = 0.25;  // as a picture may be that was cut
+  double cropped_from = 0.1;    // a tag whose shift is less sure than this is of such a picture
 
   void Check() const;  // throws Error naming the first field out of range
 };
+// Whether the tag is of a picture that was cut, so that its middle is unknown.
+bool IsOfCroppedPicture(const ViewTag& tag, const RoughPlaceOptions& options = {});
 ViewTag RoughTag(const Eigen::Vector3d& stood_in_world,
                  const Eigen::Vector3d& looked_in_world,
                  int width_px,

@@ -4,10 +4,11 @@
 
 #include "scene/check_option.h"
 #include "scene/error.h"
-#include "scene/formats/atomic_file.h"
 #include "scene/formats/image_paths.h"
-#include "scene/formats/view_io.h"
+#include "session/file_bytes.h"
 #include "session/pins_file.h"
+#include "session/reason_note.h"
+#include "session/tags_table.h"
 
 #include <algorithm>
 
@@ -16,32 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<std::string> BytesOf(const fs::path& file) {
-  std::error_code ignored;
-  if (file.empty() || !fs::is_regular_file(file, ignored)) return std::nullopt;
-  return ReadFileBytes(file);
-}
-
 void Widen(double factor, TagSigmas& sigmas) {
   for (const SigmaKey& key : kSigmaKeys) {
     if (std::optional<double>& sigma = sigmas.*key.member) *sigma *= factor;
   }
-}
-
-TagDeviations DeviationsOf(const ViewTag& tag) {
-  TagDeviations deviations = {};
-  const auto set = [&](TagKey key, const std::optional<double>& sigma) {
-    deviations[static_cast<size_t>(key)] = sigma.value_or(0);
-  };
-  for (const TagKey key : {TagKey::kX, TagKey::kY}) set(key, tag.sigmas.position);
-  set(TagKey::kZ, tag.sigmas.height);
-  for (const TagKey key : {TagKey::kI, TagKey::kJ, TagKey::kK}) set(key, tag.sigmas.lookat);
-  set(TagKey::kRoll, tag.sigmas.roll_deg);
-  set(TagKey::kV, tag.sigmas.view_angle_deg);
-  set(TagKey::kA, tag.sigmas.aspect);
-  for (const TagKey key : {TagKey::kShiftX, TagKey::kShiftY}) set(key, tag.sigmas.shift);
-  set(TagKey::kK1, tag.sigmas.k1);
-  return deviations;
 }
 
 std::vector<Photograph> UntaggedOf(const Scene& scene) {
@@ -66,6 +45,7 @@ std::vector<Photograph> UntaggedOf(const Scene& scene) {
 void SessionOptions::Check() const {
   solver.Check();
   rough.Check();
+  snap.Check();
   CheckFromTo(max_undo_steps, 1, 1000000, "session options: max_undo_steps");
   CheckAbove(pin_sigma_px, 0, "session options: pin_sigma_px");
   CheckAtLeast(reopened_widening, 1, "session options: reopened_widening");
@@ -81,9 +61,11 @@ Session::Session(const Scene& scene, const fs::path& journal_file, const Session
   options_.solver.prior = PriorSuitedTo(model_, options_.solver.prior);
   if (!scene.camera_files.empty()) {
     tags_elsewhere_ = scene.camera_files.front().string() + " has this scene's cameras";
-  } else if (fs::exists(scene.folder / "tags.csv")) {
-    tags_elsewhere_ = (scene.folder / "tags.csv").string() +
-                      " has this scene's tags; `convert` it to views/ to save tags from here";
+  } else if (const fs::path table = scene.folder / "tags.csv";
+             fs::exists(table) && !fs::is_directory(scene.folder / "views")) {
+    tags_table_ = table;
+    table_on_disk_ = BytesOf(table);
+    loaded_table_ = table_on_disk_.value_or("");
   }
   loaded_pins_ = BytesOf(pins_file_);
   pins_on_disk_ = loaded_pins_;
@@ -99,7 +81,8 @@ Session::Session(const Scene& scene, const fs::path& journal_file, const Session
   for (const Photograph& photograph : UntaggedOf(scene)) {
     Add(photograph, "", find(photograph.name));
     SessionPhotograph& added = photographs_.back();
-    added.view_file = scene.folder / "views" / (added.name + ".view");
+    // A folder views/ would take the table's place.
+    if (tags_table_.empty()) added.view_file = scene.folder / "views" / (added.name + ".view");
     State& state = states_.back();
     state.loaded.tag = state.saved.tag = state.current.tag = std::nullopt;
     // One that is yet to be filled in, or is at fault.
@@ -123,6 +106,15 @@ void Session::Add(const Photograph& photograph, const std::string& fault, const 
   State& state = states_.emplace_back();
   state.loaded_view = state.view_on_disk = BytesOf(photograph.view_file);
   state.loaded.tag = photograph.tag;
+  state.loaded.overruled = ReasonIn(state.loaded_view.value_or(""));
+  if (!tags_table_.empty()) {
+    try {
+      state.loaded_row = TagsTable(tags_table_, loaded_table_).Row(photograph.name);
+      state.loaded.overruled = TagsTable::ReasonOf(state.loaded_row.value_or(""));
+    } catch (const Error&) {
+      // Saving will say why it cannot be written.
+    }
+  }
   if (pins != nullptr) {
     state.loaded.pins = *pins;
     Widen(options_.reopened_widening, state.loaded.tag->sigmas);
@@ -135,6 +127,24 @@ std::optional<int> Session::FindPhotograph(const std::string& name) const {
     if (photographs_[i].name == name) return static_cast<int>(i);
   }
   return std::nullopt;
+}
+
+void Session::StartFrom(int photograph, const AlignmentNews& found) {
+  State& state = states_[photograph];
+  if (!state.loaded.tag || !state.done.empty()) return;
+  PhotographWork work = state.loaded;
+  work.alignment = found;
+  work.tag = found.corrected;
+  work.tag->sigmas = state.loaded.tag->sigmas;
+  work.tag->camera = state.loaded.tag->camera;
+  if (found.verdict == Verdict::kAccepted) work.accepted = found.corrected;
+  state.found = work;
+  state.done.push_back(state.current);
+  state.current = std::move(work);
+}
+
+bool Session::IsAsFound(int photograph) const {
+  return states_[photograph].found && states_[photograph].current == *states_[photograph].found;
 }
 
 const std::optional<PinSolution>& Session::Solution(int photograph) const {
@@ -193,6 +203,9 @@ std::optional<Camera> Session::CameraOf(int photograph) const {
   const PhotographWork& current = work(photograph);
   const ImageSize& size = photographs_[photograph].size;
   if (size.width == 0) return std::nullopt;
+  if (IsAsFound(photograph)) {
+    return CameraFromTag(current.alignment->corrected, size.width, size.height);
+  }
   if (current.accepted) return CameraFromTag(*current.accepted, size.width, size.height);
   const std::optional<PinSolution>& solution = Solution(photograph);
   if (!solution) return std::nullopt;
@@ -241,7 +254,7 @@ bool Session::Redo(int photograph) {
 }
 
 bool Session::IsUnsaved(int photograph) const {
-  return !(states_[photograph].current == states_[photograph].saved);
+  return !(states_[photograph].current == states_[photograph].saved) && !IsAsFound(photograph);
 }
 
 bool Session::HasUnsaved() const { return !Unsaved().empty(); }
@@ -254,88 +267,14 @@ std::map<std::string, PhotographWork> Session::Unsaved() const {
   return unsaved;
 }
 
-std::string Session::ViewBytes(int photograph) const {
-  const std::optional<ViewTag> tag = TagOf(photograph);
-  const State& state = states_[photograph];
-  if (state.loaded_view && state.loaded.tag) {
-    return FormatCorrectedView(*state.loaded_view, *tag, DeviationsOf(*tag));
-  }
-  return FormatView(*tag, "found by pins in `groundglass view`");
-}
-
-// Nothing: there is no file.
-std::optional<std::string> Session::PinsBytes(int photograph) const {
-  bool are_loaded = !have_others_written_;
-  for (size_t i = 0; i < states_.size(); ++i) {
-    const State& state = states_[i];
-    const bool is_written = static_cast<int>(i) == photograph;
-    const PhotographWork& shown = is_written ? state.current : state.saved;
-    if (!(shown.pins == state.loaded.pins)) are_loaded = false;
-  }
-  if (are_loaded) return loaded_pins_;
-  const std::string text =
-      ReplacePins(pins_on_disk_.value_or(""), photographs_[photograph].name, work(photograph).pins);
-  if (text.empty()) return std::nullopt;
-  return text;
-}
-
-SaveResult Session::Save(int photograph, bool over_others) {
-  State& state = states_[photograph];
-  const SessionPhotograph& saved = photographs_[photograph];
-  if (!IsUnsaved(photograph)) {
-    return {SaveResult::Kind::kNothingToSave, saved.name + " is saved already"};
-  }
-  if (!tags_elsewhere_.empty()) {
-    return {SaveResult::Kind::kFailed, "not saved: " + tags_elsewhere_};
-  }
-  try {
-    if (!over_others &&
-        (BytesOf(saved.view_file) != state.view_on_disk || BytesOf(pins_file_) != pins_on_disk_)) {
-      return {SaveResult::Kind::kChangedOnDisk,
-              saved.view_file.string() + " or " + pins_file_.filename().string() +
-                  " was changed by somebody else since it was read"};
-    }
-    const PhotographWork& work = state.current;
-    if (!(work.pins == Pins()) && saved.name.find_first_of(" \t") != std::string::npos) {
-      throw Error("the name " + Quote(saved.name) +
-                  " holds a blank, at which a points file parts its words; rename the photograph");
-    }
-    // What others wrote meanwhile for other photographs stays.
-    const std::optional<std::string> on_disk = BytesOf(pins_file_);
-    have_others_written_ = have_others_written_ || on_disk != pins_on_disk_;
-    pins_on_disk_ = on_disk;
-    std::optional<std::string> view;
-    // What alignment said is in no file.
-    if (!work.accepted && work.pins == state.loaded.pins && work.tag == state.loaded.tag) {
-      view = state.loaded_view;
-    } else if (TagOf(photograph)) {
-      view = ViewBytes(photograph);
-    }
-    const std::optional<std::string> pins = PinsBytes(photograph);
-    std::vector<FileToWrite> files;
-    if (view) files.push_back({saved.view_file, *view});
-    if (pins) files.push_back({pins_file_, *pins});
-    WriteFilesAtomically(files);
-    // What this session alone has made goes with what it was made for.
-    if (!view && state.view_on_disk) fs::remove(saved.view_file);
-    if (!pins && pins_on_disk_) fs::remove(pins_file_);
-    state.view_on_disk = view;
-    pins_on_disk_ = pins;
-  } catch (const std::exception& error) {
-    return {SaveResult::Kind::kFailed, std::string("not saved: ") + error.what()};
-  }
-  state.saved = state.current;
-  EndGesture();
-  if (has_journal_) journal_.Restart(Unsaved());
-  return {SaveResult::Kind::kSaved, saved.name + " saved: " + saved.view_file.string()};
-}
-
 std::map<std::string, PhotographWork> Session::FindLeftWork() const {
   std::map<std::string, PhotographWork> left;
   if (!has_journal_) return left;
   for (auto& [name, work] : journal_.Read()) {
     const std::optional<int> photograph = FindPhotograph(name);
-    if (photograph && !(states_[*photograph].saved == work)) left[name] = work;
+    if (!photograph || states_[*photograph].saved == work) continue;
+    if (states_[*photograph].found == work) continue;
+    left[name] = work;
   }
   return left;
 }

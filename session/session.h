@@ -7,6 +7,7 @@
 #include "session/journal.h"
 #include "session/photograph_work.h"
 #include "session/pin_solver.h"
+#include "session/snap.h"
 
 #include <filesystem>
 #include <map>
@@ -19,6 +20,7 @@ namespace groundglass {
 struct SessionOptions {
   PinSolverOptions solver;
   RoughPlaceOptions rough;
+  SnapOptions snap;
   int max_undo_steps = 1000;
   double pin_sigma_px = 2;
   // A tag that was saved together with its pins knows of them already: its standard deviations
@@ -62,10 +64,25 @@ class Session {
   const std::vector<SessionPhotograph>& photographs() const { return photographs_; }
   const std::filesystem::path& pins_file() const { return pins_file_; }
   std::optional<int> FindPhotograph(const std::string& name) const;
+  // Where its mask is now; nothing: it has none.
+  void SetMaskFile(int photograph, const std::optional<std::filesystem::path>& file) {
+    photographs_[photograph].mask_file = file;
+  }
+
+  // What a run found of a photograph before anybody worked on it here: work starts from that
+  // camera, with the standard deviations of the written tag, so that pins may still move it; undo
+  // gives the notebook's. It counts as saved until something is changed. Only of a photograph that
+  // has a tag, and that nobody has changed yet.
+  void StartFrom(int photograph, const AlignmentNews& found);
+  // Whether the work is still what StartFrom made of it.
+  bool IsAsFound(int photograph) const;
+  // As the notebook has it: as it was loaded. One step.
+  void BackToNotebook(int photograph) { Change(photograph, states_[photograph].loaded); }
 
   const PhotographWork& work(int photograph) const { return states_[photograph].current; }
-  // The camera that the work comes to so far: the accepted one, else that of the pins, else the
-  // tag's; nothing where nobody has said where it stood.
+  // The camera that the work comes to so far: what a run found as long as nothing is changed, the
+  // accepted one, else that of the pins, else the tag's; nothing where nobody has said where it
+  // stood.
   std::optional<Camera> CameraOf(int photograph) const;
   // Of the pins and the tag; nothing without a tag.
   const std::optional<PinSolution>& Solution(int photograph) const;
@@ -97,11 +114,13 @@ class Session {
  private:
   struct State {
     PhotographWork loaded;
+    std::optional<PhotographWork> found;  // what StartFrom made of it, until something is saved
     PhotographWork saved;
     PhotographWork current;
     std::vector<PhotographWork> done;         // states before, oldest first
     std::vector<PhotographWork> undone;       // states after, nearest last
     std::optional<std::string> loaded_view;   // bytes; nothing: there was no file
+    std::optional<std::string> loaded_row;    // of tags.csv, where that has the tags
     std::optional<std::string> view_on_disk;  // as last read or written
     mutable std::optional<PinSolution> solution;
     mutable std::optional<ViewTag> solved_tag;  // of what `solution` was made
@@ -110,7 +129,10 @@ class Session {
   void Add(const Photograph& photograph, const std::string& fault, const Pins* pins);
   void Set(int photograph, PhotographWork work);
   std::map<std::string, PhotographWork> Unsaved() const;
+  bool IsTagAsLoaded(int photograph, const PhotographWork& work) const;
   std::string ViewBytes(int photograph) const;
+  std::string TableBytes(int photograph) const;
+  void SaveFiles(int photograph);
   std::optional<std::string> PinsBytes(int photograph) const;
 
   PolygonModel model_;
@@ -119,6 +141,11 @@ class Session {
   std::optional<std::string> loaded_pins_;
   bool have_others_written_ = false;  // into the file of pins, since it was loaded
   std::optional<std::string> pins_on_disk_;
+  // Where tags are rows of tags.csv: it, as loaded and as last read or written; else empty.
+  std::filesystem::path tags_table_;
+  std::string loaded_table_;
+  std::optional<std::string> table_on_disk_;
+  bool have_others_written_table_ = false;
   std::string tags_elsewhere_;  // why view files cannot be written; empty if they can
   std::vector<SessionPhotograph> photographs_;
   std::vector<State> states_;

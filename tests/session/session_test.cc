@@ -310,6 +310,12 @@ TEST(FrameGovernor, QualityGivesWayAndComesBack) {
 TEST(SessionOptions, AreChecked) {
   ExpectCheckNamesEach<SessionOptions>(
       {{"max_iterations", [](SessionOptions& o) { o.solver.max_iterations = 0; }},
+       {"free_share", [](SessionOptions& o) { o.solver.free_share = 2; }},
+       {"aim_yaw_deg", [](SessionOptions& o) { o.solver.aim_yaw_deg = 0; }},
+       {"aim_pitch_deg", [](SessionOptions& o) { o.solver.aim_pitch_deg = -1; }},
+       {"aim_roll_deg", [](SessionOptions& o) { o.solver.aim_roll_deg = 0; }},
+       {"least_variance_share", [](SessionOptions& o) { o.solver.least_variance_share = 0; }},
+       {"cropped_from", [](SessionOptions& o) { o.rough.cropped_from = 0; }},
        {"roll_deg", [](SessionOptions& o) { o.rough.roll_deg = 0; }},
        {"max_undo_steps", [](SessionOptions& o) { o.max_undo_steps = 0; }},
        {"pin_sigma_px", [](SessionOptions& o) { o.pin_sigma_px = 0; }},

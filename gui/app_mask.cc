@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "gui/app.h"
+#include "gui/overlay_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace groundglass {
+
+// The mask of the photograph that is shown; null, with a message, if there can be none.
+MaskPaint* App::Mask() {
+  if (photograph_ < 0) return nullptr;
+  try {
+    return &masks_.Paint(photograph_);
+  } catch (const std::exception& error) {
+    message_ = error.what();
+    return nullptr;
+  }
+}
+
+// What the picture shows of it; null where there is none, or in another mode.
+std::shared_ptr<const Image8> App::ShownMask() {
+  if (!CanMask()) return nullptr;
+  const MaskPaint* mask = Mask();
+  if (mask == nullptr) return nullptr;
+  if (mask_of_ != photograph_ || mask_version_ != mask->version() || !mask_shown_) {
+    mask_shown_ = std::make_shared<const Image8>(mask->ignore());
+    mask_of_ = photograph_;
+    mask_version_ = mask->version();
+  }
+  return mask_shown_;
+}
+
+void App::PressInMask(const Eigen::Vector2d& pane_px, int button, bool is_double, bool shift) {
+  if (button == SDL_BUTTON_MIDDLE) {
+    gesture_ = Gesture::kMovePhotograph;
+    return;
+  }
+  MaskPaint* mask = Mask();
+  if (mask == nullptr) return;
+  is_erasing_ = button == SDL_BUTTON_RIGHT;
+  const Eigen::Vector2d at_px = place_.InPhotograph(pane_px);
+  if (shift) {
+    gesture_ = Gesture::kLasso;
+    lasso_px_ = {at_px};
+    return;
+  }
+  const auto picture = cache_.Find(photograph_);
+  if (is_double && picture) {
+    // In place of the dab of the first click, if that changed anything.
+    if (mask->UndoDepth() > depth_before_press_) mask->Undo();
+    mask->Flood(*picture, at_px, !is_erasing_);
+    return;
+  }
+  gesture_ = Gesture::kPaint;
+  depth_before_press_ = mask->UndoDepth();
+  painted_px_ = at_px;
+  mask->BeginStroke();
+  DragInMask(pane_px);
+}
+
+void App::DragInMask(const Eigen::Vector2d& pane_px) {
+  MaskPaint* mask = Mask();
+  if (mask == nullptr) return;
+  const Eigen::Vector2d at_px = place_.InPhotograph(pane_px);
+  if (gesture_ == Gesture::kLasso) {
+    if ((at_px - lasso_px_.back()).norm() * place_.scale > 2) lasso_px_.push_back(at_px);
+    return;
+  }
+  const double radius_px = (is_erasing_ ? eraser_px_ : brush_px_) / place_.scale;
+  mask->Brush(painted_px_, at_px, radius_px, !is_erasing_);
+  painted_px_ = at_px;
+  governor_.Moved(NowMs());
+}
+
+void App::ReleaseInMask() {
+  MaskPaint* mask = Mask();
+  if (mask == nullptr) return;
+  if (gesture_ == Gesture::kLasso) mask->Lasso(lasso_px_, !is_erasing_);
+  if (gesture_ == Gesture::kPaint) mask->EndStroke();
+  lasso_px_.clear();
+}
+
+void App::ResizeBrush(double factor, bool is_eraser) {
+  double& radius_px = is_eraser ? eraser_px_ : brush_px_;
+  radius_px = std::clamp(radius_px * factor, 1.0, 300.0);
+}
+
+// Undo, redo and saving in this mode are the mask's; others stay as they are.
+bool App::DoInMask(Action action) {
+  constexpr double kStep = 1.25;
+  MaskPaint* mask = Mask();
+  if (mask == nullptr) return false;
+  switch (action) {
+    case Action::kUndo:
+      if (!mask->Undo()) message_ = "nothing to undo in this mask";
+      return true;
+    case Action::kRedo:
+      if (!mask->Redo()) message_ = "nothing to do again in this mask";
+      return true;
+    case Action::kSave:
+      SaveMask(false);
+      return true;
+    case Action::kBrushLarger:
+      ResizeBrush(kStep, false);
+      return true;
+    case Action::kBrushSmaller:
+      ResizeBrush(1 / kStep, false);
+      return true;
+    case Action::kEraserLarger:
+      ResizeBrush(kStep, true);
+      return true;
+    case Action::kEraserSmaller:
+      ResizeBrush(1 / kStep, true);
+      return true;
+    default:
+      return false;
+  }
+}
+
+void App::SaveMask(bool over_others) {
+  const SaveResult result = masks_.Save(photograph_, over_others);
+  message_ = result.message;
+  asks_to_overwrite_mask_ = result.kind == SaveResult::Kind::kChangedOnDisk;
+}
+
+void App::DrawMaskTools() {
+  const auto on_screen = [&](const Eigen::Vector2d& photograph_px) {
+    const Eigen::Vector2d at = place_.InPicture(photograph_px);
+    return ImVec2(static_cast<float>(pane_.x + at.x()), static_cast<float>(pane_.y + at.y()));
+  };
+  for (size_t i = 0; i + 1 < lasso_px_.size(); ++i) {
+    OverlayLine(on_screen(lasso_px_[i]), on_screen(lasso_px_[i + 1]), kOverlayYellow, 1.5f);
+  }
+  const bool is_over = pane_.Holds(mouse_x_, mouse_y_) && !IsCovered();
+  if (!is_over || gesture_ == Gesture::kLasso) return;
+  const bool is_eraser = gesture_ == Gesture::kPaint && is_erasing_;
+  const ImVec2 at(static_cast<float>(pane_.x + mouse_px_.x()),
+                  static_cast<float>(pane_.y + mouse_px_.y()));
+  OverlayRing(at,
+              static_cast<float>(is_eraser ? eraser_px_ : brush_px_),
+              is_eraser ? kOverlayGrey : kOverlayYellow);
+}
+
+void App::DrawMaskPanel() {
+  const MaskPaint* mask = Mask();
+  if (mask == nullptr) {
+    ImGui::TextWrapped("Choose a photograph.");
+    return;
+  }
+  ImGui::TextWrapped(
+      "What is hatched is not looked at: people, trees, a slide's mount. It is saved as "
+      "masks/%s.png, which register, run and invrender read.",
+      session_.photographs()[photograph_].name.c_str());
+  ImGui::Separator();
+  const auto size = [](const char* label, double& radius_px) {
+    float diameter = static_cast<float>(2 * radius_px);
+    if (ImGui::SliderFloat(label, &diameter, 2, 600, "%.0f px", ImGuiSliderFlags_Logarithmic)) {
+      radius_px = diameter / 2;
+    }
+  };
+  size("brush", brush_px_);
+  size("eraser", eraser_px_);
+  const auto& values = mask->ignore().values;
+  const auto ignored = std::count(values.begin(), values.end(), 255);
+  ImGui::Text("%.1f %% of the photograph, %d steps",
+              100.0 * static_cast<double>(ignored) / static_cast<double>(values.size()),
+              mask->UndoDepth());
+  if (ImGui::Button("Ctrl+S save the mask")) SaveMask(false);
+}
+
+}  // namespace groundglass

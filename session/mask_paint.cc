@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "session/mask_paint.h"
+
+#include "scene/check_option.h"
+#include "scene/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+namespace groundglass {
+namespace {
+
+constexpr uint8_t kIgnored = 255;
+
+uint8_t CodeOf(bool is_ignored) { return is_ignored ? kIgnored : 0; }
+
+// The nearest that a line between two places comes to a third.
+double DistanceFromStroke(const Eigen::Vector2d& from,
+                          const Eigen::Vector2d& to,
+                          const Eigen::Vector2d& at) {
+  const Eigen::Vector2d along = to - from;
+  const double share =
+      std::clamp((at - from).dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
+  return (from + share * along - at).norm();
+}
+
+// A picture's colour, evened out over 3 x 3 pixels.
+std::array<int, 3> EvenColour(const Image8& srgb8, int x, int y) {
+  std::array<int, 3> sum = {0, 0, 0};
+  for (int by_y = -1; by_y <= 1; ++by_y) {
+    for (int by_x = -1; by_x <= 1; ++by_x) {
+      const uint8_t* pixel = srgb8.At(std::clamp(x + by_x, 0, srgb8.width - 1),
+                                      std::clamp(y + by_y, 0, srgb8.height - 1));
+      for (int c = 0; c < 3; ++c) sum[c] += pixel[c];
+    }
+  }
+  for (int& channel : sum) channel = (channel + 4) / 9;
+  return sum;
+}
+
+int ColourDistance(const std::array<int, 3>& a, const std::array<int, 3>& b) {
+  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+}
+
+}  // namespace
+
+void MaskPaintOptions::Check() const {
+  CheckFromTo(flood_step, 0, 255, "mask paint options: flood_step");
+  CheckFromTo(flood_range, 0, 255, "mask paint options: flood_range");
+  CheckAtLeast(static_cast<double>(max_history_bytes), 1, "mask paint options: max_history_bytes");
+}
+
+MaskPaint::MaskPaint(const ImageSize& size, Image8 ignore, const MaskPaintOptions& options)
+    : options_(options), ignore_(std::move(ignore)) {
+  options_.Check();
+  if (ignore_.Empty()) ignore_ = Image8(size.width, size.height, 1);
+  if (ignore_.width != size.width || ignore_.height != size.height) {
+    throw Error("a mask must have its photograph's size");
+  }
+}
+
+bool MaskPaint::IsEmpty() const {
+  return std::none_of(
+      ignore_.values.begin(), ignore_.values.end(), [](uint8_t code) { return code != 0; });
+}
+
+void MaskPaint::BeginStroke() {
+  EndStroke();
+  before_stroke_ = ignore_;
+  is_stroke_ = true;
+}
+
+void MaskPaint::Brush(const Eigen::Vector2d& from_px,
+                      const Eigen::Vector2d& to_px,
+                      double radius_px,
+                      bool is_ignored) {
+  if (!is_stroke_) BeginStroke();
+  // Half a pixel's diagonal, so that the smallest brush paints one.
+  const double radius = std::max(radius_px, 0.71);
+  const auto first = [&](double a, double b) {
+    return std::max(0, static_cast<int>(std::floor(std::min(a, b) - radius)));
+  };
+  const auto last = [&](double a, double b, int count) {
+    return std::min(count - 1, static_cast<int>(std::floor(std::max(a, b) + radius)));
+  };
+  for (int y = first(from_px.y(), to_px.y()); y <= last(from_px.y(), to_px.y(), ignore_.height);
+       ++y) {
+    for (int x = first(from_px.x(), to_px.x()); x <= last(from_px.x(), to_px.x(), ignore_.width);
+         ++x) {
+      if (DistanceFromStroke(from_px, to_px, {x + 0.5, y + 0.5}) > radius) continue;
+      *ignore_.At(x, y) = CodeOf(is_ignored);
+    }
+  }
+  ++version_;
+}
+
+void MaskPaint::EndStroke() {
+  if (!is_stroke_) return;
+  is_stroke_ = false;
+  Keep();
+}
+
+void MaskPaint::Lasso(const std::vector<Eigen::Vector2d>& corners_px, bool is_ignored) {
+  if (corners_px.size() < 3) return;
+  BeginStroke();
+  for (int y = 0; y < ignore_.height; ++y) {
+    // Where the row's middle crosses the line.
+    std::vector<double> crossings;
+    for (size_t i = 0; i < corners_px.size(); ++i) {
+      const Eigen::Vector2d& a = corners_px[i];
+      const Eigen::Vector2d& b = corners_px[(i + 1) % corners_px.size()];
+      const double row = y + 0.5;
+      if ((a.y() <= row) == (b.y() <= row)) continue;
+      crossings.push_back(a.x() + (row - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const double width = ignore_.width;
+      const int from = static_cast<int>(std::ceil(std::clamp(crossings[i] - 0.5, 0.0, width)));
+      const int to = static_cast<int>(std::ceil(std::clamp(crossings[i + 1] - 0.5, 0.0, width)));
+      for (int x = from; x < to; ++x) *ignore_.At(x, y) = CodeOf(is_ignored);
+    }
+  }
+  ++version_;
+  EndStroke();
+}
+
+void MaskPaint::Flood(const Image8& srgb8, const Eigen::Vector2d& from_px, bool is_ignored) {
+  const int start_x = static_cast<int>(std::floor(from_px.x()));
+  const int start_y = static_cast<int>(std::floor(from_px.y()));
+  const bool fits = srgb8.width == ignore_.width && srgb8.height == ignore_.height;
+  const bool is_inside =
+      start_x >= 0 && start_y >= 0 && start_x < ignore_.width && start_y < ignore_.height;
+  if (!fits || !is_inside) return;
+  BeginStroke();
+  const std::array<int, 3> start_colour = EvenColour(srgb8, start_x, start_y);
+  Raster<char> is_reached(ignore_.width, ignore_.height, 1);
+  struct Reached {
+    int x;
+    int y;
+    std::array<int, 3> colour;
+  };
+  std::vector<Reached> front = {{start_x, start_y, start_colour}};
+  *is_reached.At(start_x, start_y) = 1;
+  while (!front.empty()) {
+    const Reached at = front.back();
+    front.pop_back();
+    *ignore_.At(at.x, at.y) = CodeOf(is_ignored);
+    constexpr std::array<std::array<int, 2>, 4> kNext = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+    for (const auto& [by_x, by_y] : kNext) {
+      const int x = at.x + by_x;
+      const int y = at.y + by_y;
+      if (x < 0 || y < 0 || x >= ignore_.width || y >= ignore_.height) continue;
+      if (*is_reached.At(x, y)) continue;
+      const std::array<int, 3> colour = EvenColour(srgb8, x, y);
+      if (ColourDistance(colour, at.colour) > options_.flood_step ||
+          ColourDistance(colour, start_colour) > options_.flood_range) {
+        continue;
+      }
+      *is_reached.At(x, y) = 1;
+      front.push_back({x, y, colour});
+    }
+  }
+  ++version_;
+  EndStroke();
+}
+
+// What the stroke changed, as a step.
+void MaskPaint::Keep() {
+  int left = ignore_.width;
+  int right = -1;
+  int top = ignore_.height;
+  int bottom = -1;
+  for (int y = 0; y < ignore_.height; ++y) {
+    for (int x = 0; x < ignore_.width; ++x) {
+      if (*ignore_.At(x, y) == *before_stroke_.At(x, y)) continue;
+      left = std::min(left, x);
+      right = std::max(right, x);
+      top = std::min(top, y);
+      bottom = std::max(bottom, y);
+    }
+  }
+  if (right < 0) return;
+  Patch patch = {left, top, right - left + 1, bottom - top + 1, {}, {}};
+  for (int y = top; y <= bottom; ++y) {
+    const auto append = [&](const Image8& from, std::vector<uint8_t>& to) {
+      to.insert(to.end(), from.At(left, y), from.At(left, y) + patch.width);
+    };
+    append(before_stroke_, patch.before);
+    append(ignore_, patch.after);
+  }
+  done_.push_back(std::move(patch));
+  undone_.clear();
+  size_t bytes = 0;
+  for (size_t i = done_.size(); i > 0; --i) {
+    bytes += 2 * done_[i - 1].before.size();
+    if (bytes <= options_.max_history_bytes || i == done_.size()) continue;
+    done_.erase(done_.begin(), done_.begin() + static_cast<std::ptrdiff_t>(i));
+    break;
+  }
+}
+
+void MaskPaint::Put(const Patch& patch, const std::vector<uint8_t>& values) {
+  for (int y = 0; y < patch.height; ++y) {
+    const auto row = values.begin() + static_cast<std::ptrdiff_t>(y) * patch.width;
+    std::copy(row, row + patch.width, ignore_.At(patch.x, patch.y + y));
+  }
+  ++version_;
+}
+
+bool MaskPaint::Undo() {
+  EndStroke();
+  if (done_.empty()) return false;
+  Put(done_.back(), done_.back().before);
+  undone_.push_back(std::move(done_.back()));
+  done_.pop_back();
+  return true;
+}
+
+bool MaskPaint::Redo() {
+  EndStroke();
+  if (undone_.empty()) return false;
+  Put(undone_.back(), undone_.back().after);
+  done_.push_back(std::move(undone_.back()));
+  undone_.pop_back();
+  return true;
+}
+
+}  // namespace groundglass

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#pragma once
+
+#include "scene/formats/image_io.h"
+#include "scene/image.h"
+
+#include <Eigen/Dense>
+
+#include <cstdint>
+#include <vector>
+
+namespace groundglass {
+
+struct MaskPaintOptions {
+  // Flooding goes from pixel to pixel as long as no channel of the picture, evened out over 3 x 3
+  // pixels, changes by more than the first from one to the next, or by more than the second from
+  // where it began; sRGB codes. Larger leaks over weak edges.
+  int flood_step = 6;
+  int flood_range = 48;
+  // What undo may hold; the oldest strokes go first.
+  size_t max_history_bytes = size_t{64} << 20;
+
+  void Check() const;  // throws Error naming the first field out of range
+};
+
+// A photograph's mask while somebody paints it: 255 = ignore, 0 = look (ignore_mask.h). Every
+// stroke is one step that can be undone. Pixels are the photograph's; what lies outside of it is
+// left out. To be used by one thread.
+class MaskPaint {
+ public:
+  // ignore: the mask so far, of this size; empty if there is none.
+  MaskPaint(const ImageSize& size, Image8 ignore, const MaskPaintOptions& options = {});
+
+  const Image8& ignore() const { return ignore_; }
+  // Grows with every change, so that one knows what to draw again.
+  int version() const { return version_; }
+  bool IsEmpty() const;  // nothing is ignored
+
+  // A round brush drawn along a straight line; strokes of one BeginStroke are one step.
+  void BeginStroke();
+  void Brush(const Eigen::Vector2d& from_px,
+             const Eigen::Vector2d& to_px,
+             double radius_px,
+             bool is_ignored);
+  void EndStroke();
+  // The inside of a closed line, by the even-odd rule; one step.
+  void Lasso(const std::vector<Eigen::Vector2d>& corners_px, bool is_ignored);
+  // From a place up to the edges of the picture (of the mask's size); one step.
+  void Flood(const Image8& srgb8, const Eigen::Vector2d& from_px, bool is_ignored);
+
+  bool Undo();  // false if there is nothing to undo
+  bool Redo();
+  int UndoDepth() const { return static_cast<int>(done_.size()); }
+
+ private:
+  // A part of the mask, and its values before and after.
+  struct Patch {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    std::vector<uint8_t> before;
+    std::vector<uint8_t> after;
+  };
+  void Put(const Patch& patch, const std::vector<uint8_t>& values);
+  void Keep();
+
+  MaskPaintOptions options_;
+  Image8 ignore_;
+  Image8 before_stroke_;
+  bool is_stroke_ = false;
+  int version_ = 0;
+  std::vector<Patch> done_;
+  std::vector<Patch> undone_;
+};
+
+}  // namespace groundglass

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "scene/formats/ignore_mask.h"
+#include "scene/formats/registration_io.h"
+#include "scene/formats/view_io.h"
+#include "tests/gui/brick_window.h"
+#include "tests/gui/desktop.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <utility>
+
+namespace groundglass {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(Window, EscapeStopsAnAlignmentAtOnceAndChangesNothing) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s5"}, {});
+  const Desktop desktop(1280, 900);
+  WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+  window.Key("F3");
+  window.Fence();
+  window.Key("A");
+  window.Key("Escape");
+  const nlohmann::json state = window.Fence();
+  EXPECT_THAT(state["message"].get<std::string>(), HasSubstr("stopped: s5 is as it was"));
+  EXPECT_EQ(state["verdict"], "");
+  EXPECT_EQ(state["undo_depth"], 0);
+  EXPECT_EQ(state["mode"], "Tag") << "Escape stopped the alignment and did nothing else";
+}
+
+TEST(Window, AnOutputFolderStartsFromWhatWasFoundAndUndoGivesTheNotebookBack) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s5"}, {});
+  const ViewTag written = ReadView(folder / "hall/views/s5.view");
+  Registration found;
+  found.name = "s5";
+  found.width_px = 1200;
+  found.height_px = 800;
+  found.verdict = Verdict::kAccepted;
+  found.measured = found.corrected = written;
+  found.corrected.position_in_site.x() += 0.25;
+  found.covariance = 1e-4 * CameraCovariance::Identity();
+  folder.Write("out/registration.json", FormatRegistrations({found}));
+  const Desktop desktop(1280, 900);
+  std::vector<std::string> arguments = With(kSmallWindow, folder / "out");
+  arguments.insert(arguments.end(), {"--scene", (folder / "hall").string()});
+  WindowUnderTest window(desktop, arguments, folder.path());
+  window.Key("F3");
+  nlohmann::json state = window.Fence();
+  const auto east = [&] {
+    return ParseView(state["found"].get<std::string>(), "found").position_in_site.x();
+  };
+  EXPECT_DOUBLE_EQ(east(), written.position_in_site.x() + 0.25);
+  EXPECT_EQ(state["verdict"], "accepted");
+  EXPECT_FALSE(state["unsaved"].get<bool>());
+  window.Key("Ctrl+Z");
+  state = window.Fence();
+  EXPECT_EQ(ParseView(state["found"].get<std::string>(), "found"), written);
+  window.Key("Ctrl+Y");
+  window.Key("Ctrl+Home");
+  state = window.Fence();
+  EXPECT_EQ(ParseView(state["found"].get<std::string>(), "found"), written);
+  EXPECT_FALSE(state["unsaved"].get<bool>());
+  // Nothing to ask about.
+  window.Key("Ctrl+Q");
+  EXPECT_EQ(window.Wait(), 0);
+}
+
+TEST(Window, FacesAreColouredByWhatPhotographsSayOfThem) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s4", "s5"}, {});
+  const Desktop desktop(1280, 900);
+  WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+  const std::array<std::pair<const char*, const char*>, 4> maps = {
+      {{"5", "photographs that show it"},
+       {"6", "shown finest by"},
+       {"7", "a pixel of the finest photograph"},
+       {"8", "one standard deviation"}}};
+  for (const auto& [key, title] : maps) {
+    window.Key(key);
+    EXPECT_EQ(window.Fence()["map"], title);
+  }
+  window.Key("9");
+  EXPECT_THAT(window.Fence()["message"].get<std::string>(), HasSubstr("--tiles"));
+  window.Key("2");
+  EXPECT_EQ(window.Fence()["map"], "");
+}
+
+TEST(Window, KeyframesAreKeptAsViewFilesAndFlown) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s5"}, {});
+  const Desktop desktop(1280, 900);
+  WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+  window.Key("K");
+  const nlohmann::json first = window.Fence();
+  EXPECT_EQ(first["keyframes"], 1) << first["message"];
+  window.Key("Right");
+  window.Key("K");
+  const nlohmann::json second = window.Fence();
+  window.Key("Home");
+  window.Fence();
+  window.Key("Shift+K");
+  // The fence waits for the end of the flight, which is the second keyframe.
+  const nlohmann::json flown = window.Fence();
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(flown["eye"][i].get<double>(), second["eye"][i].get<double>(), 1e-6);
+  }
+  EXPECT_TRUE(fs::exists(folder / "hall/flight/1.view"));
+  EXPECT_TRUE(fs::exists(folder / "hall/flight/2.view"));
+  window.Key("Ctrl+K");
+  EXPECT_EQ(window.Fence()["keyframes"], 1);
+  EXPECT_FALSE(fs::exists(folder / "hall/flight/2.view"));
+}
+
+TEST(Window, AMaskIsPaintedErasedUndoneAndSaved) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s5"}, {});
+  const Desktop desktop(1280, 900);
+  WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+  window.Key("F5");
+  nlohmann::json state = window.Fence();
+  ASSERT_EQ(state["mode"], "Mask");
+  EXPECT_EQ(state["masked"], 0);
+  window.Drag(InWindow(state, {300, 300}), InWindow(state, {500, 300}));
+  state = window.Fence();
+  // The brush is 16 px of the window each way.
+  const double radius_px = 16 / state["place"][0].get<double>();
+  const double expected = 200 * 2 * radius_px + M_PI * radius_px * radius_px;
+  EXPECT_NEAR(state["masked"].get<double>(), expected, 0.05 * expected);
+  EXPECT_TRUE(state["mask_unsaved"].get<bool>());
+  EXPECT_EQ(state["undo_depth"], 0) << "the tag has a history of its own";
+  window.Key("Ctrl+S");
+  state = window.Fence();
+  EXPECT_FALSE(state["mask_unsaved"].get<bool>()) << state["message"];
+  const Image8 saved = ReadIgnoreMask(folder / "hall/masks/s5.png", {1200, 800});
+  EXPECT_EQ(*saved.At(400, 300), 255);
+  EXPECT_EQ(*saved.At(400, 400), 0);
+  window.Key("Ctrl+Z");
+  state = window.Fence();
+  EXPECT_EQ(state["masked"], 0);
+  window.Key("Ctrl+S");
+  window.Fence();
+  EXPECT_FALSE(fs::exists(folder / "hall/masks/s5.png"));
+}
+
+}  // namespace
+}  // namespace groundglass
