@@ -260,6 +260,26 @@ std::vector<SeenTag> FindSeenTags(const Image8& srgb_grey,
   return seen;
 }
 
+std::vector<SeenTagCorner> CornersOf(const std::vector<SeenTag>& seen, const TagsOptions& options) {
+  std::vector<SeenTagCorner> corners;
+  for (const SeenTag& tag : seen) {
+    const Eigen::Matrix<double, 8, 8> information =
+        tag.root_information.transpose() * tag.root_information;
+    const Eigen::Matrix<double, 8, 1> variances_px =
+        information.inverse().diagonal() * options.edge_noise_px * options.edge_noise_px;
+    for (int i = 0; i < 4; ++i) {
+      corners.push_back({"",
+                         tag.place.id,
+                         i,
+                         tag.corners_px.segment<2>(2 * i),
+                         std::sqrt(variances_px.segment<2>(2 * i).maxCoeff()),
+                         tag.place.corners_in_world.col(i),
+                         tag.place.sigma});
+    }
+  }
+  return corners;
+}
+
 double AreaPx(const SeenTag& seen) {
   const Eigen::Vector2d first = seen.corners_px.segment<2>(4) - seen.corners_px.segment<2>(0);
   const Eigen::Vector2d second = seen.corners_px.segment<2>(6) - seen.corners_px.segment<2>(2);
@@ -332,6 +352,7 @@ TagsResult CalibrateTags(const Image8& srgb_grey,
     result.reason = "it shows none of the surveyed tags";
     return result;
   }
+  result.corners = CornersOf(seen, options);
   for (const SeenTag& tag : seen) result.ids.push_back(tag.place.id);
   const auto largest = std::max_element(
       seen.begin(), seen.end(), [](const auto& a, const auto& b) { return AreaPx(a) < AreaPx(b); });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "calibrate/surveyed_tags.h"
+#include "scene/formats/tag_corners.h"
 #include "scene/image.h"
 #include "scene/view_tag.h"
 
@@ -36,6 +37,9 @@ struct TagsResult {
   bool is_found = false;
   std::string reason;  // if not: one line for a person
   ViewTag tag;         // place, direction and roll, and the lens, as far as the tags tell it better
+  // The surveyed tags' corners in the photograph, whether a pose was found or not; they do not say
+  // which photograph.
+  std::vector<SeenTagCorner> corners;
   std::vector<int> ids;  // of the surveyed tags that were used
   double rms_px = 0;     // of their corners, each axis apart
 };

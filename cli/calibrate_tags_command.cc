@@ -5,6 +5,7 @@
 #include "cli/calibration_scene.h"
 #include "cli/json_output.h"
 #include "scene/error.h"
+#include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/lens.h"
 #include "scene/formats/metadata_lens.h"
@@ -128,6 +129,7 @@ int RunCalibrateTags(const TagsArguments& arguments) {
   if (arguments.lens_file) lens = ReadLens(*arguments.lens_file);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   size_t num_failed = 0;
+  std::vector<SeenTagCorner> corners;
   for (const CalibrationPhotograph& photograph : scene.photographs) {
     TagsResult result;
     KnownKeys keys;
@@ -138,6 +140,10 @@ int RunCalibrateTags(const TagsArguments& arguments) {
                              arguments.options);
       keys = KeysOfTags(result);
       if (!common.dry_run) WriteKnownKeys(scene, photograph.name, keys, "tags");
+      for (SeenTagCorner& corner : result.corners) {
+        corner.photograph = photograph.name;
+        corners.push_back(corner);
+      }
     } catch (const Error& error) {
       ++num_failed;
       result = {};
@@ -158,6 +164,9 @@ int RunCalibrateTags(const TagsArguments& arguments) {
     } else {
       std::printf("%s: nothing, since %s\n", photograph.name.c_str(), result.reason.c_str());
     }
+  }
+  if (!common.dry_run && !scene.out_folder.empty()) {
+    WriteFileAtomically(scene.out_folder / kTagCornersFile, FormatTagCorners(corners));
   }
   if (common.json) PrintJson({{"photographs", json}});
   return ExitOfCalibration(num_failed, scene.photographs.size());

@@ -5,6 +5,7 @@
 #include "register/fill_registration.h"
 #include "register/keep_joint.h"
 #include "register/shared_conflict.h"
+#include "register/surveyed_tags_in_set.h"
 #include "register/ties/find_ties.h"
 #include "scene/error.h"
 
@@ -63,6 +64,17 @@ std::vector<TieView> ViewsOf(const std::vector<AlignedPhotograph>& photographs) 
   return views;
 }
 
+std::vector<PhotographInSet> PlacesIn(const PhotographSet& set) {
+  std::vector<PhotographInSet> places;
+  for (size_t i = 0; i < set.photographs.size(); ++i) {
+    const Registration& registration = set.alignments[i]->registration;
+    places.push_back({registration.name,
+                      static_cast<double>(set.photographs[i].prior.width_px) /
+                          std::max(1, registration.width_px)});
+  }
+  return places;
+}
+
 // Why what joint refinement took and gave could not be kept; empty if it was, or nobody asked.
 std::string KeepJointIfAsked(const PhotographSet& set,
                              const std::vector<int>& lenses,
@@ -86,7 +98,9 @@ std::string KeepJointIfAsked(const PhotographSet& set,
 // The common solution of a set; its photographs' cameras are those found, afterwards.
 JointRefinement Refine(const EdgeModel& edge_model,
                        const RegisterOptions& options,
-                       PhotographSet& set) {
+                       const std::vector<SeenTagCorner>& tag_corners,
+                       PhotographSet& set,
+                       std::vector<MovedTag>& moved_tags) {
   std::vector<int> lenses;
   std::map<LensKey, int> lens_of_key;
   for (const PhotographAlignment* alignment : set.alignments) {
@@ -105,6 +119,8 @@ JointRefinement Refine(const EdgeModel& edge_model,
     ties =
         FindTies(edge_model.model, edge_model.visibility, ViewsOf(set.photographs), options.ties);
   }
+  const std::vector<PhotographInSet> places = PlacesIn(set);
+  AddTagCorners(tag_corners, places, joint_options, ties.points);
   JointRefinement joint =
       options.refine_together(edge_model, set.photographs, lenses, ties.points, joint_options);
   for (const JointSolution& solution : joint.photographs) {
@@ -112,6 +128,7 @@ JointRefinement Refine(const EdgeModel& edge_model,
       throw Error("register: the photographs' common solution has no covariance");
     }
   }
+  moved_tags = FindMovedTags(ties.points, joint.tie_moves_in_world, places, joint_options);
   std::string& keep_fault = set.alignments.front()->keep_fault;
   if (keep_fault.empty()) keep_fault = KeepJointIfAsked(set, lenses, ties, joint, options);
   for (size_t i = 0; i < set.photographs.size(); ++i) {
@@ -279,8 +296,11 @@ void JudgeMember(size_t i,
 
 std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
                                         const RegisterOptions& options,
-                                        std::vector<PhotographAlignment>& alignments) {
+                                        std::vector<PhotographAlignment>& alignments,
+                                        const std::vector<SeenTagCorner>& tag_corners,
+                                        std::vector<MovedTag>* moved_tags) {
   PhotographSet set;
+  std::vector<MovedTag> moved;
   for (PhotographAlignment& alignment : alignments) {
     if (alignment.registration.verdict != Verdict::kAccepted) continue;
     if (alignment.aligned.found.empty()) continue;
@@ -293,16 +313,17 @@ std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
   for (int round = 0; round < num_rounds; ++round) {
     if (options.use_ties) JoinByTies(edge_model, options, barred, alignments, set);
     if (set.photographs.size() < 2) return {};
-    joint = Refine(edge_model, options, set);
+    joint = Refine(edge_model, options, tag_corners, set, moved);
     while (TakeOutWorsened(options, set, barred)) {
       if (set.photographs.size() < 2) break;
-      joint = Refine(edge_model, options, set);
+      joint = Refine(edge_model, options, tag_corners, set, moved);
     }
   }
   for (PhotographAlignment* alignment : barred) {
     ApplyJudgement(JudgeDisagreement(), alignment->registration);
   }
   if (set.photographs.size() < 2) return {};
+  if (moved_tags != nullptr) *moved_tags = std::move(moved);
   const std::vector<TieView> views = ViewsOf(set.photographs);
   tbb::parallel_for(size_t{0}, set.photographs.size(), [&](size_t i) {
     JudgeMember(i, joint.photographs[i], set, views, edge_model, options);

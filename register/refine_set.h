@@ -3,10 +3,20 @@
 #pragma once
 
 #include "register/align_photograph.h"
+#include "scene/formats/tag_corners.h"
 
+#include <string>
 #include <vector>
 
 namespace groundglass {
+
+// An AprilTag that photographs put elsewhere than its survey.
+struct MovedTag {
+  int april_tag = -1;
+  Eigen::Vector3d move_in_world = Eigen::Vector3d::Zero();  // from its surveyed place; model's unit
+  double survey_sigma = 0;
+  std::vector<std::string> photographs;  // that show it
+};
 
 // Refines photographs together and judges them anew: those that are accepted by themselves, and
 // those in `review` of which the others show the same (ties), each with its best camera or its
@@ -16,8 +26,12 @@ namespace groundglass {
 // from its own edges stays as it was found alone, and so do those with control points. Returns how
 // far the model's edges were found from where the model has them; empty if fewer than two are
 // refined, and then all stay as they are. Throws Error if there is no common solution.
+// tag_corners: of AprilTags that were surveyed, in pixels of the photographs; each is a point whose
+// place is known to the survey's sigma. moved_tags, if given, receives those that are not there.
 std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
                                         const RegisterOptions& options,
-                                        std::vector<PhotographAlignment>& alignments);
+                                        std::vector<PhotographAlignment>& alignments,
+                                        const std::vector<SeenTagCorner>& tag_corners = {},
+                                        std::vector<MovedTag>* moved_tags = nullptr);
 
 }  // namespace groundglass

@@ -6,10 +6,12 @@
 #include "register/notebook_overclaim.h"
 #include "register/refine_set.h"
 #include "register/shared_conflict.h"
+#include "register/surveyed_tags_in_set.h"
 #include "scene/error.h"
 #include "scene/formats/ignore_mask.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/select_photographs.h"
+#include "scene/formats/tag_corners.h"
 
 #include <tbb/parallel_for.h>
 
@@ -119,9 +121,23 @@ std::vector<PhotographAlignment> AlignAll(const Scene& scene,
   return alignments;
 }
 
+// What calibration/ has of surveyed AprilTags; that it cannot be read is a warning.
+std::vector<SeenTagCorner> TagCornersOf(const Scene& scene, std::vector<std::string>& warnings) {
+  for (const std::filesystem::path& file : scene.lens_files) {
+    if (file.filename() != kTagCornersFile) continue;
+    try {
+      return ReadTagCorners(file);
+    } catch (const Error& error) {
+      warnings.push_back(std::string("AprilTags are left out: ") + error.what());
+    }
+  }
+  return {};
+}
+
 // What photographs share ties them together; what cannot be had of it is a warning.
 void RefineWhatIsShared(const EdgeModel& edge_model,
                         const RegisterOptions& options,
+                        const std::vector<SeenTagCorner>& tag_corners,
                         const Progress& progress,
                         std::vector<PhotographAlignment>& alignments,
                         RegisteredScene& registered) {
@@ -135,8 +151,14 @@ void RefineWhatIsShared(const EdgeModel& edge_model,
     }
   }
   try {
-    registered.model_errors = FindModelErrors(
-        edge_model, RefineSet(edge_model, options, alignments), options.model_errors);
+    std::vector<MovedTag> moved_tags;
+    registered.model_errors =
+        FindModelErrors(edge_model,
+                        RefineSet(edge_model, options, alignments, tag_corners, &moved_tags),
+                        options.model_errors);
+    for (const MovedTag& tag : moved_tags) {
+      registered.warnings.push_back(DescribeMovedTag(tag, UnitName(edge_model.model.unit)));
+    }
   } catch (const Error& error) {
     registered.warnings.push_back(
         std::string("the photographs stay as they were found one by one, since they could not "
@@ -163,7 +185,8 @@ RegisteredScene RegisterScene(const Scene& scene,
       options.prior.overclaim = *overclaim;
       alignments = AlignAll(scene, lens, edge_model, options, progress);
     }
-    RefineWhatIsShared(edge_model, options, progress, alignments, registered);
+    const std::vector<SeenTagCorner> tag_corners = TagCornersOf(scene, registered.warnings);
+    RefineWhatIsShared(edge_model, options, tag_corners, progress, alignments, registered);
   }
   JudgeSharedConflict(options.conflict, alignments);
   for (PhotographAlignment& alignment : alignments) {

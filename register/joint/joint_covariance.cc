@@ -60,13 +60,15 @@ Eigen::MatrixXd LeaveOutUpdates(const NormalEquations& equations,
         equations.RowsOfCosts().at(solved.edge_costs[i]));
   }
   // What a photograph has in common with others on one face errs together too: by what stands out
-  // from it, and by what the light does there.
+  // from it, and by what the light does there. So do an AprilTag's corners.
   const int num_clusters =
       clusters.empty() ? 0 : *std::max_element(clusters.begin(), clusters.end()) + 1;
+  const int num_faces = static_cast<int>(state.edge_model.model.faces.size());
   size_t tie_cost = 0;
   for (const TiePoint& point : state.tie_points) {
     for (const TieObservation& observation : point.observations) {
-      rows_of_cluster[{observation.photograph, num_clusters + point.face}].push_back(
+      const int number = point.april_tag >= 0 ? num_faces + point.april_tag : point.face;
+      rows_of_cluster[{observation.photograph, num_clusters + number}].push_back(
           equations.RowsOfCosts().at(solved.tie_costs[tie_cost++]));
     }
   }
@@ -131,6 +133,9 @@ JointRefinement SummariseTogether(JointState& state, SolvedTogether& solved) {
                                  whole * covariance * whole.transpose(),
                                  moving.num_matched,
                                  SpreadOf(joint.photographs.size(), state)});
+  }
+  for (const MovingTie& tie : state.ties) {
+    joint.tie_moves_in_world.push_back(tie.frame.axes_in_world * tie.move);
   }
   for (size_t number = 0; number < state.edges.size(); ++number) {
     if (state.edges[number].num_photographs == 0) continue;

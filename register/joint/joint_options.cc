@@ -25,6 +25,10 @@ void JointOptions::Check(const std::string& path) const {
   CheckAbove(tie_loss_sigmas, 0, path + "tie_loss_sigmas");
   CheckAbove(relief_sigmas, 0, path + "relief_sigmas");
   CheckAbove(widest_relief_sigmas, 0, path + "widest_relief_sigmas");
+  CheckAbove(survey_loss_sigmas, 0, path + "survey_loss_sigmas");
+  CheckAbove(least_corner_px, 0, path + "least_corner_px");
+  CheckAtLeast(shared_survey_factor, 1, path + "shared_survey_factor");
+  CheckAbove(moved_tag_sigmas, 0, path + "moved_tag_sigmas");
   CheckFromTo(num_rounds, 1, 1000, path + "num_rounds");
   matching.Check(path + "matching.");
   CheckAtLeast(spare_range, 1, path + "spare_range");

@@ -45,6 +45,14 @@ struct JointOptions {
   // points to the face bends the cameras (docs/measurements/accuracy.md).
   double relief_sigmas = 0.1;
   double widest_relief_sigmas = 100;
+  // Surveyed AprilTags: what a corner lies off its surveyed place counts less and less beyond this
+  // many of its sigmas (Cauchy), since a tag may have been moved; a corner in a photograph is no
+  // better known than this, and its four share their tag's error, so each one's counts this often.
+  double survey_loss_sigmas = 2;
+  double least_corner_px = 0.1;
+  double shared_survey_factor = 2;
+  // A tag is told to be elsewhere if all that see it put it this many of its sigmas off.
+  double moved_tag_sigmas = 5;
   // How often candidates are chosen anew, and how far from an edge: it shrinks by this factor a
   // round, down to matching.final_range_px. A loose model (EdgeSample::looseness) widens both.
   int num_rounds = 6;

@@ -12,6 +12,11 @@
 namespace groundglass {
 namespace {
 
+// A decoded tag is where it is seen: what may be wrong about it is its survey (AddPriors).
+ceres::LossFunction* LossOf(const TiePoint& point, const JointOptions& options) {
+  return point.april_tag >= 0 ? nullptr : new ceres::CauchyLoss(options.tie_loss_sigmas);
+}
+
 // One cost for each run of matched samples.
 SolvedTogether StartProblem(const JointOptions& options, JointState& state) {
   SolvedTogether solved;
@@ -32,7 +37,7 @@ SolvedTogether StartProblem(const JointOptions& options, JointState& state) {
       MovingTie& tie = state.ties[i];
       solved.tie_costs.push_back(
           solved.problem->AddResidualBlock(new TiePointCost(observation, moving.prior, tie.frame),
-                                           new ceres::CauchyLoss(options.tie_loss_sigmas),
+                                           LossOf(state.tie_points[i], options),
                                            moving.own.data(),
                                            state.lenses[moving.lens].data(),
                                            tie.move.data()));
@@ -64,12 +69,19 @@ std::shared_ptr<ceres::ParameterBlockOrdering> AddPriors(const JointOptions& opt
         block);
     ordering->AddElementToGroup(block, 0);
   }
-  for (MovingTie& tie : state.ties) {
+  for (size_t i = 0; i < state.ties.size(); ++i) {
+    MovingTie& tie = state.ties[i];
+    ordering->AddElementToGroup(tie.move.data(), 0);
+    if (state.tie_points[i].april_tag >= 0) {
+      problem.AddResidualBlock(new StandardNormalCost<3>,
+                               new ceres::CauchyLoss(options.survey_loss_sigmas),
+                               tie.move.data());
+      continue;
+    }
     problem.AddResidualBlock(
         new ReliefPriorCost(options.widest_relief_sigmas), nullptr, tie.move.data());
     problem.AddResidualBlock(
         new ReliefPriorCost(1), new ceres::CauchyLoss(options.relief_sigmas), tie.move.data());
-    ordering->AddElementToGroup(tie.move.data(), 0);
   }
   for (MovingPhotograph& moving : state.moving) {
     problem.AddResidualBlock(

@@ -7,6 +7,10 @@ namespace groundglass {
 TieFrame FrameOfTiePoint(const TiePoint& point, double model_sigma) {
   TieFrame frame;
   frame.at_in_world = point.point_in_world;
+  if (point.april_tag >= 0) {
+    frame.axes_in_world *= point.survey_sigma;
+    return frame;
+  }
   const Eigen::Vector3d first = point.normal_in_world.unitOrthogonal();
   frame.axes_in_world << first, point.normal_in_world.cross(first), point.normal_in_world;
   frame.axes_in_world *= model_sigma;

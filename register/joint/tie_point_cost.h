@@ -10,7 +10,8 @@
 namespace groundglass {
 
 // Where a tie point may be, world frame: point(m) = at + axes * m. The third axis is the face's
-// normal; units are one sigma of the model.
+// normal; units are one sigma of the model. A surveyed point's axes are the world's, in units of
+// its survey_sigma.
 struct TieFrame {
   Eigen::Vector3d at_in_world = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes_in_world = Eigen::Matrix3d::Identity();

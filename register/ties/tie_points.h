@@ -95,6 +95,10 @@ struct TiePoint {
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();  // on the face
   Eigen::Vector3d normal_in_world = Eigen::Vector3d::UnitZ();
   std::vector<TieObservation> observations;  // two at least, each photograph once
+  // A corner of this AprilTag, which may lie off its surveyed place by this, one standard deviation
+  // along each axis (model's unit); one photograph may be all that shows it. Else -1.
+  int april_tag = -1;
+  double survey_sigma = 0;
 };
 
 // How a photograph's patches were found again in others.

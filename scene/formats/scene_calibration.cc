@@ -3,10 +3,12 @@
 #include "scene/formats/known_keys.h"
 #include "scene/formats/metadata_lens.h"
 #include "scene/formats/scene_reader.h"
+#include "scene/formats/tag_corners.h"
 #include "scene/formats/view_io.h"
 #include "scene/formats/view_pairs.h"
 
 #include <algorithm>
+#include <map>
 
 namespace groundglass {
 namespace {
@@ -51,8 +53,19 @@ void SceneReader::ReadCalibration() {
         if (known_names_.count(name) > 0 || !MakesCamera(text)) continue;
         known_names_[name] = file;
         tags_[name] = {{}, file, text};
+      } else if (file.filename() == kTagCornersFile) {
+        result_.scene.lens_files.push_back(file);
+        std::map<std::string, std::vector<SeenTagCorner>> of_photograph;
+        for (const SeenTagCorner& corner : ReadTagCorners(file)) {
+          of_photograph[corner.photograph].push_back(corner);
+        }
+        for (const auto& [name, corners] : of_photograph) {
+          taken_[CountTagCorners(corners) + " from calibration/"].push_back(name);
+        }
       } else if (extension != ".txt" && extension != ".json") {
-        Warn(file, "neither a view file nor a lens file; expected the extension .view or .lens");
+        Warn(file,
+             "neither a view file nor a lens file; expected the extension .view or .lens, or "
+             "apriltag-corners.csv");
       }
     } catch (const Error& error) {
       Fault(error.what());
