@@ -25,10 +25,6 @@ Scene ReadWhatIsThere(const fs::path& folder, const ModelOptions& options) {
 
 }  // namespace
 
-bool IsOutputFolder(const fs::path& folder) {
-  return fs::exists(folder / "registration.json") || ReadManifest(folder).has_value();
-}
-
 bool IsSameModel(const PolygonModel& a, const PolygonModel& b) {
   if (a.faces.size() != b.faces.size() || a.faces.empty()) return false;
   const double size_a = ComputeBounds(a).Diagonal();

@@ -22,10 +22,6 @@ struct OpenedFolder {
   std::vector<Registration> registrations;  // of an output folder: what was found
 };
 
-// Whether a folder is one that a run left: it holds a registration.json, or a manifest.json of this
-// program's. A scene may hold a model.glb too.
-bool IsOutputFolder(const std::filesystem::path& folder);
-
 // Reads an output folder, a scene folder or a model file. scene_folder: where the photographs of an
 // output folder are, and its model if it has none of its own; empty if nobody says. Where both have
 // a model it is the run's, whose faces and unit its cameras know, unless they are one

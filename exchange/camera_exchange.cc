@@ -3,11 +3,11 @@
 #include "exchange/camera_exchange.h"
 
 #include "exchange/formats.h"
-#include "exchange/read_source.h"
 #include "scene/error.h"
 #include "scene/formats/given_cameras.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/image_paths.h"
+#include "scene/formats/output_folder.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "exchange/read_source.h"
-
+#include "exchange/camera_exchange.h"
 #include "exchange/formats.h"
 #include "scene/camera_check.h"
 #include "scene/error.h"
@@ -99,15 +98,15 @@ void TakeFiles(const std::vector<fs::path>& files, const fs::path& images, Excha
   if (images.empty()) source.images = files.front().parent_path();
 }
 
-}  // namespace
-
-bool IsOutputFolder(const fs::path& folder) {
+bool HasFoundCameras(const fs::path& folder) {
   return fs::exists(folder / "registration.json") && fs::exists(folder / "cameras");
 }
 
+}  // namespace
+
 bool HasExchangeCameras(const fs::path& input) {
   if (fs::is_regular_file(input)) return FindCameraReader(input) != nullptr;
-  return fs::is_directory(input) && (IsOutputFolder(input) || !ListCameraFiles(input).empty());
+  return fs::is_directory(input) && (HasFoundCameras(input) || !ListCameraFiles(input).empty());
 }
 
 ExchangeSource ReadExchangeSource(const fs::path& input, const fs::path& images) {
@@ -126,7 +125,7 @@ ExchangeSource ReadExchangeSource(const fs::path& input, const fs::path& images)
                       "transforms.json, .fspy, .mlp, Metashape's .xml"
                     : "no such file or folder");
   }
-  if (IsOutputFolder(input)) {
+  if (HasFoundCameras(input)) {
     source.registrations = ReadRegistrations(input / "registration.json");
     TakeColmap(*FindColmapModel(input / "cameras"), source);
     TakeModel(input, source);

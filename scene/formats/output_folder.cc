@@ -162,6 +162,10 @@ bool IsManifestDamaged(const std::filesystem::path& folder) {
   return std::filesystem::exists(file) && !ParseManifest(ReadTextFile(file)).manifest;
 }
 
+bool IsOutputFolder(const fs::path& folder) {
+  return fs::exists(folder / "registration.json") || ReadManifest(folder).has_value();
+}
+
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest) {
   WriteFileAtomically(folder / kFileName, FormatManifest(manifest));
 }

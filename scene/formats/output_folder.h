@@ -51,6 +51,10 @@ std::optional<Manifest> ReadManifest(const std::filesystem::path& folder);
 // It is there and cannot be read, so that nobody knows what the files were made with.
 bool IsManifestDamaged(const std::filesystem::path& folder);
 
+// Whether a folder is one that a run left: it holds a registration.json, or a manifest.json of this
+// program's. A scene may hold a model.glb too.
+bool IsOutputFolder(const std::filesystem::path& folder);
+
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest);
 
 }  // namespace groundglass

@@ -22,8 +22,8 @@
 namespace groundglass {
 namespace {
 
-constexpr int kWidthPx = 720;
-constexpr int kHeightPx = 480;
+constexpr int kPictureWidthPx = 720;
+constexpr int kPictureHeightPx = 480;
 constexpr int kTrials = 3;
 constexpr int kPhotographs = 8;
 constexpr double kFarOffRms = 6;
@@ -60,7 +60,8 @@ Numbers NumbersOf(const ViewTag& lens) {
 }
 
 std::vector<BoardPhotograph> TakeThem(const Situation& situation, uint64_t seed) {
-  static const BoardStudio studio(Board{}, CameraFromTag(TrueLens(), kWidthPx, kHeightPx));
+  static const BoardStudio studio(Board{},
+                                  CameraFromTag(TrueLens(), kPictureWidthPx, kPictureHeightPx));
   std::mt19937_64 random(seed);
   std::vector<BoardPhotograph> photographs;
   const Board board;
@@ -100,7 +101,7 @@ OpenCvLens CalibrateWithOpenCv(const std::vector<BoardPhotograph>& photographs,
   tag.shift_x = found.shift_x;
   tag.shift_y = found.shift_y;
   tag.k1 = found.k1;
-  const Camera lens = CameraFromTag(tag, kWidthPx, kHeightPx);
+  const Camera lens = CameraFromTag(tag, kPictureWidthPx, kPictureHeightPx);
   std::vector<std::vector<cv::Point3f>> on_board;
   std::vector<std::vector<cv::Point2f>> seen_px;
   for (size_t i = 0; i < photographs.size(); ++i) {
@@ -142,7 +143,7 @@ OpenCvLens CalibrateWithOpenCv(const std::vector<BoardPhotograph>& photographs,
   const double rms =
       cv::calibrateCamera(on_board,
                           seen_px,
-                          {kWidthPx, kHeightPx},
+                          {kPictureWidthPx, kPictureHeightPx},
                           intrinsics,
                           distortion,
                           rotations,
@@ -154,18 +155,18 @@ OpenCvLens CalibrateWithOpenCv(const std::vector<BoardPhotograph>& photographs,
   const double focal_x = intrinsics.at<double>(0, 0);
   const double focal_y = intrinsics.at<double>(1, 1);
   OpenCvLens result;
-  result.numbers = {
-      2 * DegreesFromRadians(std::atan(0.5 * kWidthPx / focal_x)),
-      focal_y / focal_x * kWidthPx / kHeightPx,
-      (intrinsics.at<double>(0, 2) + 0.5) / kWidthPx - 0.5,
-      (intrinsics.at<double>(1, 2) + 0.5 - 0.5 * kHeightPx) / kWidthPx * focal_x / focal_y,
-      distortion.at<double>(0)};
-  const double tangent = 0.5 * kWidthPx / focal_x;
+  result.numbers = {2 * DegreesFromRadians(std::atan(0.5 * kPictureWidthPx / focal_x)),
+                    focal_y / focal_x * kPictureWidthPx / kPictureHeightPx,
+                    (intrinsics.at<double>(0, 2) + 0.5) / kPictureWidthPx - 0.5,
+                    (intrinsics.at<double>(1, 2) + 0.5 - 0.5 * kPictureHeightPx) / kPictureWidthPx *
+                        focal_x / focal_y,
+                    distortion.at<double>(0)};
+  const double tangent = 0.5 * kPictureWidthPx / focal_x;
   const double by_focal = 2 * tangent / (1 + tangent * tangent) / focal_x;
   result.sigmas = {DegreesFromRadians(by_focal * sigmas.at<double>(0)),
                    0,  // it does not say how the two focal lengths err together
-                   sigmas.at<double>(2) / kWidthPx,
-                   sigmas.at<double>(3) / kWidthPx,
+                   sigmas.at<double>(2) / kPictureWidthPx,
+                   sigmas.at<double>(3) / kPictureWidthPx,
                    sigmas.at<double>(4)};
   result.rms_px = rms / std::sqrt(2.0);
   return result;

@@ -292,7 +292,7 @@ std::vector<SeenTagCorner> SurveyedTags(double survey_sigma) {
       const Eigen::Vector3d at =
           middle + Eigen::Vector3d(corner % 3 == 0 ? -1 : 1, 0, corner < 2 ? 1 : -1);
       for (size_t i = 0; i < TrueTags().size(); ++i) {
-        const auto seen = Project(CameraFromTag(TrueTags()[i], kWidth, kHeight), at);
+        const auto seen = Project(CameraFromTag(TrueTags()[i], kPhotoWidth, kPhotoHeight), at);
         if (!seen) continue;
         corners.push_back({"s" + std::to_string(i + 1),
                            tag,

@@ -46,7 +46,7 @@ TEST(ConvertModel, RefusesFormatsThatItCannotWrite) {
               HasSubstr("no.obj: no such model file"));
   EXPECT_THAT(ThrownMessage([&] { ConvertModel(folder.Write("a.txt", "?"), "m.ply", {}); }),
               HasSubstr("a.txt: this kind of model is not read"));
-  const auto model = folder.Write("a.osu", ReadTextFile(kBrick + "/model.osu"));
+  const auto model = folder.Write("a.osu", ReadTextFile(kBrick / "model.osu"));
   EXPECT_THAT(ThrownMessage([&] { ConvertModel(model, folder.path() / "./a.osu", {}); }),
               HasSubstr("would be written over the input itself"));
 }
