@@ -206,8 +206,8 @@ TEST(Options, WhatIsNoNumberOrNoneOfAListIsSaidPlainly) {
        {std::pair<std::vector<std::string>, std::string>(
             {"calibrate", "lines", "hall", "--aspect", "0"},
             "calibrate lines: --aspect: must be above 0, not 0"),
-        {{"calibrate", "lines", "hall", "--aspect", "abc"},
-         "calibrate lines: --aspect: expected a number, not 'abc'"},
+        {{"run", "hall", "-o", "out", "--texel-size", "abc"},
+         "run: --texel-size: expected a number, not 'abc'"},
         {{"run", "hall", "-o", "out", "--seed", "-3"}, "run: --seed: must be at least 0, not -3"},
         {{"run", "hall", "-o", "out", "--seed", "1.5"},
          "run: --seed: expected a whole number, 0 or more, not '1.5'"},
