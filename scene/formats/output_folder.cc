@@ -162,7 +162,7 @@ bool IsManifestDamaged(const std::filesystem::path& folder) {
   return std::filesystem::exists(file) && !ParseManifest(ReadTextFile(file)).manifest;
 }
 
-bool IsOutputFolder(const fs::path& folder) {
+bool IsOutputFolder(const std::filesystem::path& folder) {
   return fs::exists(folder / "registration.json") || ReadManifest(folder).has_value();
 }
 
