@@ -163,7 +163,7 @@ bool IsManifestDamaged(const std::filesystem::path& folder) {
 }
 
 bool IsOutputFolder(const std::filesystem::path& folder) {
-  return fs::exists(folder / "registration.json") || ReadManifest(folder).has_value();
+  return std::filesystem::exists(folder / "registration.json") || ReadManifest(folder).has_value();
 }
 
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest) {
