@@ -16,16 +16,6 @@ std::string FormatAdvice(const Advice& advice) {
   return advice.subject + ": " + advice.message + "; " + advice.remedy;
 }
 
-std::string ShellWord(const std::filesystem::path& path) {
-  std::string text = path.string();
-  const std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./+,:@%=";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 std::string TagPlace(const Scene& scene, const Photograph& photograph) {
   if (!photograph.view_file.empty()) return photograph.view_file.string();
   return (scene.folder / "tags.csv").string() + ": " + photograph.name;

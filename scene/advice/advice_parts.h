@@ -32,8 +32,6 @@ struct AdviceContext {
   }
 };
 
-// A path as a shell takes it, quoted if need be.
-std::string ShellWord(const std::filesystem::path& path);
 // Where a photograph's tag stands: its view file, or the table with the photograph's name.
 std::string TagPlace(const Scene& scene, const Photograph& photograph);
 // "s1, s2, s3 and 4 more".

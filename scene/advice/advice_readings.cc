@@ -4,6 +4,7 @@
 #include "scene/advice/advice_readings.h"
 
 #include "scene/frames.h"
+#include "scene/shell_word.h"
 #include "scene/text.h"
 
 #include <algorithm>
