@@ -5,6 +5,7 @@
 #include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/output_folder.h"
 #include "scene/model_sigma.h"
 #include "scene/text.h"
 
@@ -227,14 +228,7 @@ std::optional<std::vector<FaceCells>> MapSurvey(const Survey& survey,
 std::optional<TexelSources> ReadTexelSources(const fs::path& folder,
                                              const TexturedModel& textured) {
   TexelSources sources;
-  std::error_code ignored;
-  // Texels count the photographs that were baked, each of which left its faces there.
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "faces", ignored)) {
-    if (entry.path().extension() == ".png") {
-      sources.photographs.push_back(entry.path().stem().string());
-    }
-  }
-  std::sort(sources.photographs.begin(), sources.photographs.end(), NaturalLess);
+  sources.photographs = NumberedPhotographs(folder);
   for (size_t i = 0; i < textured.pages.size(); ++i) {
     const fs::path file = folder / ("provenance_" + std::to_string(i) + ".png");
     if (!fs::exists(file)) return std::nullopt;

@@ -6,6 +6,7 @@
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/output_folder.h"
 #include "scene/formats/photograph_name.h"
 #include "scene/formats/registration_io.h"
 #include "scene/registration.h"
@@ -18,17 +19,6 @@ namespace groundglass {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The photographs that were used have a mask each, and are numbered in the order of their names.
-std::vector<std::string> ReadPhotographNames(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "faces", error)) {
-    if (entry.path().extension() == ".png") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end(), NaturalLess);
-  return names;
-}
 
 // The names of masks are files', which some systems write in another Unicode form than was asked
 // for.
@@ -99,7 +89,7 @@ DrawingSources ReadDrawingSources(const fs::path& folder,
                                   bool needs_provenance) {
   const PolygonModel& model = textured.model;
   DrawingSources sources;
-  sources.photographs = ReadPhotographNames(folder);
+  sources.photographs = NumberedPhotographs(folder);
   sources.faces.resize(model.faces.size());
   const std::vector<PhotographName> names = MaskNames(sources.photographs);
   const std::map<size_t, Registration> registrations = ReadRegistrationsOf(folder, names);

@@ -5,6 +5,7 @@
 #include "report/embedded_picture.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/output_folder.h"
 #include "scene/text.h"
 #include "scene/textured_model.h"
 
@@ -63,17 +64,6 @@ std::string NumbersAsPng(const Image16& numbers) {
     picture.values[3 * i + 1] = static_cast<uint8_t>(numbers.values[i] >> 8);
   }
   return EncodeBase64(EncodeImage(picture, ".png"));
-}
-
-// Numbers count the photographs with masks in the order of their names, from 1.
-std::vector<std::string> NumberedPhotographs(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "faces", error)) {
-    if (entry.path().extension() == ".png") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end(), NaturalLess);
-  return names;
 }
 
 }  // namespace

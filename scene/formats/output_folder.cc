@@ -5,10 +5,12 @@
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/view_io.h"
+#include "scene/text.h"
 
 #include <nlohmann/json.hpp>
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <memory>
@@ -164,6 +166,16 @@ bool IsManifestDamaged(const std::filesystem::path& folder) {
 
 bool IsOutputFolder(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "registration.json") || ReadManifest(folder).has_value();
+}
+
+std::vector<std::string> NumberedPhotographs(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "faces", error)) {
+    if (entry.path().extension() == ".png") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end(), NaturalLess);
+  return names;
 }
 
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest) {

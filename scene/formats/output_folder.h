@@ -55,6 +55,10 @@ bool IsManifestDamaged(const std::filesystem::path& folder);
 // program's. A scene may hold a model.glb too.
 bool IsOutputFolder(const std::filesystem::path& folder);
 
+// The photographs that a run's texture is from, each of which left a mask in faces/, in the order
+// in which provenance_N.png numbers them, from 1.
+std::vector<std::string> NumberedPhotographs(const std::filesystem::path& folder);
+
 void WriteManifest(const std::filesystem::path& folder, const Manifest& manifest);
 
 }  // namespace groundglass

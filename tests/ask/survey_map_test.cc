@@ -56,14 +56,21 @@ TEST(SurveyMap, SaysOfEachCellWhatWhereSaysOfItsMiddle) {
   EXPECT_GT(num_shown_somewhere, 20);
 }
 
-TEST(SurveyMap, AFaceNarrowerThanACellHasOneAllTheSame) {
+TEST(SurveyMap, AFaceThatNoCellsMiddleIsInIsAskedAllTheSame) {
   Survey survey = MakeWallSurvey();
+  // A strip up the wall and along its foot, whose middle lies beside it.
+  survey.model.points_in_world.insert(survey.model.points_in_world.begin() + 4,
+                                      {{20, 0, 1}, {-19, 0, 1}, {-19, 0, 20}, {-20, 0, 20}});
+  survey.model.faces = {{{0, 1, 4, 5, 6, 7}, "strip", 1}};
   const Visibility visibility(survey.model);
   SurveyMapOptions options;
   options.num_cells = 1;
   const auto map = MapSurvey(survey, visibility, kGoOn, options);
   ASSERT_TRUE(map);
-  for (const FaceCells& face : *map) EXPECT_GE(face.cells.size(), 1u);
+  const std::vector<MapCell>& cells = (*map)[0].cells;
+  EXPECT_TRUE(std::all_of(cells.begin(), cells.end(), [](const MapCell& cell) {
+    return cell.num_photographs > 0 && cell.finest;
+  }));
 }
 
 TEST(SurveyMap, IsGivenUpWhenAsked) {
