@@ -62,6 +62,15 @@ std::string SmallGlb(const fs::path& folder, size_t max_bytes) {
   return bytes;
 }
 
+// Empty too if what they are made of is damaged: the model is there without them.
+std::string ModesOf(const fs::path& folder, size_t max_bytes) {
+  try {
+    return ModelModesJson(folder, max_bytes);
+  } catch (const Error&) {
+    return "";
+  }
+}
+
 }  // namespace
 
 mustache::data ModelData(const ReportInput& input) {
@@ -76,8 +85,7 @@ mustache::data ModelData(const ReportInput& input) {
     mustache::data turned;
     turned["glb"] = EncodeBase64({reinterpret_cast<const uint8_t*>(glb.data()), glb.size()});
     turned["script"] = kModelScript;
-    const std::string modes =
-        ModelModesJson(input.folder, static_cast<size_t>(kModesShare * max_bytes));
+    const std::string modes = ModesOf(input.folder, static_cast<size_t>(kModesShare * max_bytes));
     turned["modes"] = false;
     if (!modes.empty()) turned["modes"] = mustache::data("json", modes);
     data["turned"] = std::move(turned);
