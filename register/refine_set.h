@@ -3,20 +3,12 @@
 #pragma once
 
 #include "register/align_photograph.h"
+#include "register/surveyed_tags_in_set.h"
 #include "scene/formats/tag_corners.h"
 
-#include <string>
 #include <vector>
 
 namespace groundglass {
-
-// An AprilTag that photographs put elsewhere than its survey.
-struct MovedTag {
-  int april_tag = -1;
-  Eigen::Vector3d move_in_world = Eigen::Vector3d::Zero();  // from its surveyed place; model's unit
-  double survey_sigma = 0;
-  std::vector<std::string> photographs;  // that show it
-};
 
 // Refines photographs together and judges them anew: those that are accepted by themselves, and
 // those in `review` of which the others show the same (ties), each with its best camera or its

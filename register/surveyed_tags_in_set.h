@@ -3,7 +3,6 @@
 #pragma once
 
 #include "register/joint/joint_options.h"
-#include "register/refine_set.h"
 #include "register/ties/tie_points.h"
 #include "scene/formats/tag_corners.h"
 
@@ -18,6 +17,14 @@ struct PhotographInSet {
   double scale = 1;  // pixels of the picture that is refined for one of the photograph's
 };
 
+// An AprilTag that photographs put elsewhere than its survey.
+struct MovedTag {
+  int april_tag = -1;
+  Eigen::Vector3d move_in_world = Eigen::Vector3d::Zero();  // from its surveyed place; model's unit
+  double survey_sigma = 0;
+  std::vector<std::string> photographs;  // that show it
+};
+
 // Adds surveyed AprilTags' corners in these photographs to the tie points: one point for each
 // corner of each tag, seen by each photograph that shows it.
 void AddTagCorners(const std::vector<SeenTagCorner>& tag_corners,
@@ -25,7 +32,7 @@ void AddTagCorners(const std::vector<SeenTagCorner>& tag_corners,
                    const JointOptions& options,
                    std::vector<TiePoint>& ties);
 
-// The tags whose corners all moved away from the survey, by their mean move; by id.
+// The tags whose corners moved away from the survey in the mean; by id.
 std::vector<MovedTag> FindMovedTags(const std::vector<TiePoint>& ties,
                                     const std::vector<Eigen::Vector3d>& moves_in_world,
                                     const std::vector<PhotographInSet>& photographs,

@@ -51,7 +51,7 @@ struct JointOptions {
   double survey_loss_sigmas = 2;
   double least_corner_px = 0.1;
   double shared_survey_factor = 2;
-  // A tag is told to be elsewhere if all that see it put it this many of its sigmas off.
+  // A tag is told to be elsewhere if its corners' mean is found this many of its sigmas off.
   double moved_tag_sigmas = 5;
   // How often candidates are chosen anew, and how far from an edge: it shrinks by this factor a
   // round, down to matching.final_range_px. A loose model (EdgeSample::looseness) widens both.
