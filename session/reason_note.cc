@@ -10,8 +10,6 @@
 namespace groundglass {
 namespace {
 
-constexpr std::string_view kReasonMark = "% taken against the verdict: ";
-
 // Where the line of the reason stands in the text, its break included; nothing: npos.
 struct NoteSpan {
   size_t begin = std::string::npos;

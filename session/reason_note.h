@@ -4,8 +4,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace groundglass {
+
+inline constexpr std::string_view kReasonMark = "% taken against the verdict: ";
 
 // Why a person took a camera against registration's verdict, as a line of its own at the end of a
 // view file, a comment to all others:

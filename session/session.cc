@@ -74,12 +74,23 @@ Session::Session(const Scene& scene, const fs::path& journal_file, const Session
     const auto found = pins_of.find(name);
     return found == pins_of.end() ? nullptr : &found->second;
   };
-  for (const Photograph& photograph : scene.photographs) Add(photograph, "", find(photograph.name));
+  std::optional<TagsTable> table;
+  if (!tags_table_.empty()) {
+    try {
+      table.emplace(tags_table_, loaded_table_);
+    } catch (const Error&) {
+      // Saving will say why it cannot be written.
+    }
+  }
+  for (const Photograph& photograph : scene.photographs) {
+    Add(photograph, "", find(photograph.name), table);
+  }
   for (const UnreadablePhotograph& unreadable : scene.unreadable) {
-    Add(unreadable.photograph, unreadable.reasons.front(), find(unreadable.photograph.name));
+    const Photograph& photograph = unreadable.photograph;
+    Add(photograph, unreadable.reasons.front(), find(photograph.name), table);
   }
   for (const Photograph& photograph : UntaggedOf(scene)) {
-    Add(photograph, "", find(photograph.name));
+    Add(photograph, "", find(photograph.name), table);
     SessionPhotograph& added = photographs_.back();
     // A folder views/ would take the table's place.
     if (tags_table_.empty()) added.view_file = scene.folder / "views" / (added.name + ".view");
@@ -95,7 +106,10 @@ Session::Session(const Scene& scene, const fs::path& journal_file, const Session
   }
 }
 
-void Session::Add(const Photograph& photograph, const std::string& fault, const Pins* pins) {
+void Session::Add(const Photograph& photograph,
+                  const std::string& fault,
+                  const Pins* pins,
+                  const std::optional<TagsTable>& table) {
   photographs_.push_back({photograph.name,
                           photograph.image_file,
                           photograph.mask_file,
@@ -107,13 +121,9 @@ void Session::Add(const Photograph& photograph, const std::string& fault, const 
   state.loaded_view = state.view_on_disk = BytesOf(photograph.view_file);
   state.loaded.tag = photograph.tag;
   state.loaded.overruled = ReasonIn(state.loaded_view.value_or(""));
-  if (!tags_table_.empty()) {
-    try {
-      state.loaded_row = TagsTable(tags_table_, loaded_table_).Row(photograph.name);
-      state.loaded.overruled = TagsTable::ReasonOf(state.loaded_row.value_or(""));
-    } catch (const Error&) {
-      // Saving will say why it cannot be written.
-    }
+  if (table) {
+    state.loaded_row = table->Row(photograph.name);
+    state.loaded.overruled = TagsTable::ReasonOf(state.loaded_row.value_or(""));
   }
   if (pins != nullptr) {
     state.loaded.pins = *pins;

@@ -41,6 +41,8 @@ struct SessionPhotograph {
   std::optional<Lens> lens = {};    // where its tag says no view angle (Photograph)
 };
 
+class TagsTable;
+
 // What became of saving.
 struct SaveResult {
   enum class Kind { kSaved, kNothingToSave, kChangedOnDisk, kFailed };
@@ -74,6 +76,8 @@ class Session {
   // gives the notebook's. It counts as saved until something is changed. Only of a photograph that
   // has a tag, and that nobody has changed yet.
   void StartFrom(int photograph, const AlignmentNews& found);
+  // Whether work started from what a run found, and nothing was saved since.
+  bool HasFound(int photograph) const { return states_[photograph].found.has_value(); }
   // Whether the work is still what StartFrom made of it.
   bool IsAsFound(int photograph) const;
   // As the notebook has it: as it was loaded. One step.
@@ -126,7 +130,10 @@ class Session {
     mutable std::optional<ViewTag> solved_tag;  // of what `solution` was made
     mutable std::optional<Pins> solved_pins;
   };
-  void Add(const Photograph& photograph, const std::string& fault, const Pins* pins);
+  void Add(const Photograph& photograph,
+           const std::string& fault,
+           const Pins* pins,
+           const std::optional<TagsTable>& table);
   void Set(int photograph, PhotographWork work);
   std::map<std::string, PhotographWork> Unsaved() const;
   bool IsTagAsLoaded(int photograph, const PhotographWork& work) const;

@@ -154,7 +154,12 @@ SaveResult Session::Save(int photograph, bool over_others) {
   state.found.reset();
   EndGesture();
   if (has_journal_) journal_.Restart(Unsaved());
-  return {SaveResult::Kind::kSaved, saved.name + " saved: " + place.string()};
+  std::string message = saved.name + " saved: " + place.string();
+  if (const auto tag = TagOf(photograph); tag && !tags_table_.empty()) {
+    const std::string lost = TagsTable(tags_table_, *table_on_disk_).SigmasWithoutColumn(*tag);
+    if (!lost.empty()) message += ", which has no column for " + lost + " and does not keep it";
+  }
+  return {SaveResult::Kind::kSaved, message};
 }
 
 }  // namespace groundglass

@@ -3,10 +3,12 @@
 #include "session/tags_table.h"
 
 #include "scene/error.h"
+#include "scene/formats/csv.h"
 #include "scene/formats/image_kind.h"
 #include "scene/formats/text_encoding.h"
 #include "scene/frames.h"
 #include "scene/text.h"
+#include "session/reason_note.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +16,6 @@
 
 namespace groundglass {
 namespace {
-
-constexpr std::string_view kReasonInRow = "% taken against the verdict: ";
 
 bool IsBlankChar(char c) { return c == ' ' || c == '\t'; }
 
@@ -65,6 +65,9 @@ TagsTable::TagsTable(const std::filesystem::path& file, const std::string& bytes
   if (IsUtf16(bytes_)) {
     throw Error(file_, "is UTF-16; save it as UTF-8 for tags to be saved into it from here");
   }
+  if (!IsUtf8(bytes_)) {
+    throw Error(file_, "is not UTF-8; save it as UTF-8 for tags to be saved into it from here");
+  }
   separator_ = FindSeparator(bytes_);
   line_break_ = bytes_.find("\r\n") != std::string::npos ? "\r\n"
                 : bytes_.find('\n') == std::string::npos && bytes_.find('\r') != std::string::npos
@@ -82,15 +85,11 @@ TagsTable::TagsTable(const std::filesystem::path& file, const std::string& bytes
   for (size_t i = 0; i < header->fields.size(); ++i)
     header_.push_back(LowerCase(Field(*header, i)));
   records_.erase(records_.begin(), header + 1);
-  // A comma that parts nothing is a decimal one.
+  std::vector<std::string> fields;
   for (const Record& record : records_) {
-    for (size_t i = 0; i < record.fields.size(); ++i) {
-      std::string field = Field(record, i);
-      if (std::count(field.begin(), field.end(), ',') != 1) continue;
-      std::replace(field.begin(), field.end(), ',', '.');
-      if (ParseNumber(field)) decimal_mark_ = ',';
-    }
+    for (size_t i = 0; i < record.fields.size(); ++i) fields.push_back(Field(record, i));
   }
+  decimal_mark_ = DecimalMarkOf(fields, separator_);
 }
 
 std::vector<TagsTable::Record> TagsTable::Split(const std::string& text) const {
@@ -168,9 +167,9 @@ std::string TagsTable::With(const std::string& photograph,
 }
 
 std::string TagsTable::ReasonOf(const std::string& row) {
-  const size_t at = row.find(kReasonInRow);
+  const size_t at = row.find(kReasonMark);
   if (at == std::string::npos) return "";
-  return std::string(TrimBlanks(std::string_view(row).substr(at + kReasonInRow.size())));
+  return std::string(TrimBlanks(std::string_view(row).substr(at + kReasonMark.size())));
 }
 
 std::optional<double> TagsTable::NumberIn(const std::string& field) const {
@@ -183,6 +182,15 @@ std::string TagsTable::Number(double value) const {
   std::string text = FormatNumber(value);
   if (decimal_mark_ == ',') std::replace(text.begin(), text.end(), '.', ',');
   return separator_ == ',' && decimal_mark_ == ',' ? '"' + text + '"' : text;
+}
+
+// Quoted where it would be taken apart, or for a comment.
+std::string TagsTable::NameField(const std::string& photograph) const {
+  const std::string apart = std::string("\"%") + separator_;
+  if (photograph.find_first_of(apart) == std::string::npos) return photograph;
+  std::string quoted = "\"";
+  for (const char c : photograph) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
 }
 
 // What each column of a tag has to say, by its name.
@@ -210,9 +218,24 @@ std::map<std::string, double> TagsTable::ValuesOf(const ViewTag& tag) const {
   return values;
 }
 
+std::string TagsTable::SigmasWithoutColumn(const ViewTag& tag) const {
+  std::string names;
+  for (const SigmaKey& key : kSigmaKeys) {
+    const bool has_column =
+        std::find(header_.begin(), header_.end(), std::string(key.name)) != header_.end();
+    if (tag.sigmas.*key.member && !has_column) {
+      names += (names.empty() ? "" : ",") + std::string(key.name);
+    }
+  }
+  return names;
+}
+
 std::string TagsTable::FormatRow(const std::string& photograph,
                                  const ViewTag& tag,
                                  const std::string& reason) const {
+  if (decimal_mark_ == '?') {
+    throw Error(file_, "has numbers with decimal points and with commas; write them in one way");
+  }
   const std::map<std::string, double> values = ValuesOf(tag);
   std::string missing;
   for (const auto& [name, value] : values) {
@@ -229,7 +252,7 @@ std::string TagsTable::FormatRow(const std::string& photograph,
   for (size_t column = 0; column < header_.size(); ++column) {
     const auto value = values.find(header_[column]);
     std::string field = record ? Field(*record, column) : "";
-    if (header_[column] == "image" && record == nullptr) field = photograph;
+    if (header_[column] == "image" && record == nullptr) field = NameField(photograph);
     const auto said = NumberIn(field);
     const bool is_changed =
         value != values.end() &&
@@ -253,7 +276,12 @@ std::string TagsTable::FormatRow(const std::string& photograph,
     const size_t end = record->fields[std::min(header_.size(), record->fields.size()) - 1].end;
     rest = bytes_.substr(end, record->text.end - end);
   }
-  const size_t old_reason = rest.find(kReasonInRow);
+  // A number is not to touch a comment: it would be none any more.
+  if (!rest.empty() && rest[0] == '%' && !row.empty() && !IsBlankChar(row.back()) &&
+      row.back() != separator_) {
+    row += ' ';
+  }
+  const size_t old_reason = rest.find(kReasonMark);
   if (old_reason != std::string::npos) rest.erase(old_reason);
   while (old_reason != std::string::npos && !rest.empty() && IsBlankChar(rest.back())) {
     rest.pop_back();
@@ -261,7 +289,7 @@ std::string TagsTable::FormatRow(const std::string& photograph,
   std::string note = reason;
   std::replace_if(
       note.begin(), note.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return row + rest + (note.empty() ? "" : " " + std::string(kReasonInRow) + note);
+  return row + rest + (note.empty() ? "" : " " + std::string(kReasonMark) + note);
 }
 
 }  // namespace groundglass

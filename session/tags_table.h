@@ -20,7 +20,7 @@ namespace groundglass {
 class TagsTable {
  public:
   // bytes: what the file holds. Throws Error for a table that cannot be read, or whose bytes are
-  // UTF-16, of which this class keeps its hands.
+  // not UTF-8, of which this class keeps its hands.
   TagsTable(const std::filesystem::path& file, const std::string& bytes);
 
   // A photograph's row as it stands, without its line break; nothing if it has none.
@@ -39,6 +39,9 @@ class TagsTable {
   std::string FormatRow(const std::string& photograph,
                         const ViewTag& tag,
                         const std::string& reason) const;
+  // The tag's standard deviations that the table has no column for, and so does not keep:
+  // "sigma_xy,sigma_z"; empty if none.
+  std::string SigmasWithoutColumn(const ViewTag& tag) const;
 
  private:
   struct Span {
@@ -56,12 +59,13 @@ class TagsTable {
   std::string Field(const Record& record, size_t column) const;
   std::optional<double> NumberIn(const std::string& field) const;
   std::string Number(double value) const;
+  std::string NameField(const std::string& photograph) const;
   std::map<std::string, double> ValuesOf(const ViewTag& tag) const;
 
   std::filesystem::path file_;
   std::string bytes_;
   char separator_ = ',';
-  char decimal_mark_ = '.';
+  char decimal_mark_ = '.';  // as DecimalMarkOf
   std::string line_break_;
   std::vector<Record> records_;
   std::vector<std::string> header_;

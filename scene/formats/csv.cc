@@ -162,30 +162,24 @@ std::vector<CsvTable::Record> CsvTable::SplitRecords(std::string_view text) cons
   return records;
 }
 
-// Numbers that can be read in one way only tell how the others are meant.
-void CsvTable::FindDecimalMark(const std::vector<Record>& records) {
+char DecimalMarkOf(const std::vector<std::string>& fields, char separator) {
   size_t num_points = 0;
   size_t num_commas = 0;
   bool has_unclear_comma = false;
-  for (const Record& record : records) {
-    for (const std::string& field : record.fields) {
-      const NumberText number = TakeApart(field);
-      if (!number.is_one || number.num_points + number.num_commas != 1) continue;
-      if (!number.is_in_thousands) {
-        (number.last_mark == '.' ? num_points : num_commas) += 1;
-      } else {
-        has_unclear_comma = has_unclear_comma || number.last_mark == ',';
-      }
+  for (const std::string& field : fields) {
+    const NumberText number = TakeApart(field);
+    if (!number.is_one || number.num_points + number.num_commas != 1) continue;
+    if (!number.is_in_thousands) {
+      (number.last_mark == '.' ? num_points : num_commas) += 1;
+    } else {
+      has_unclear_comma = has_unclear_comma || number.last_mark == ',';
     }
   }
-  if (num_commas > 0 && num_points > 0) {
-    decimal_mark_ = '?';
-  } else if (num_commas > 0) {
-    decimal_mark_ = ',';
-  } else if (num_points == 0 && has_unclear_comma) {
-    // "5,123" alone: where columns are not parted by commas, those are decimal.
-    decimal_mark_ = separator_ == ',' ? '?' : ',';
-  }
+  if (num_commas > 0 && num_points > 0) return '?';
+  if (num_commas > 0) return ',';
+  // "5,123" alone: where columns are not parted by commas, those are decimal.
+  if (num_points == 0 && has_unclear_comma) return separator == ',' ? '?' : ',';
+  return '.';
 }
 
 std::optional<double> CsvTable::Number(std::string_view field, std::string* why_not) const {
@@ -255,7 +249,11 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::vector<std::string>* 
   for (const std::string& name : records[0].fields) header_.push_back(LowerCase(name));
   while (!header_.empty() && header_.back().empty()) header_.pop_back();
   records.erase(records.begin());
-  FindDecimalMark(records);
+  std::vector<std::string> fields;
+  for (const Record& record : records) {
+    fields.insert(fields.end(), record.fields.begin(), record.fields.end());
+  }
+  decimal_mark_ = DecimalMarkOf(fields, separator_);
   for (Record& record : records) {
     if (record.is_open) {
       fail(record.line, "a quote here is not closed");

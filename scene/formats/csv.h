@@ -43,7 +43,6 @@ class CsvTable {
  private:
   struct Record;
   std::vector<Record> SplitRecords(std::string_view text) const;
-  void FindDecimalMark(const std::vector<Record>& records);
 
   std::filesystem::path file_;
   char separator_ = ',';
@@ -53,6 +52,10 @@ class CsvTable {
   std::vector<CsvRow> rows_;
   std::vector<std::string> warnings_;
 };
+
+// What parts whole numbers from their decimals: '.' or ',', as those of a table's fields tell that
+// can be read in one way only; '?' if they do not agree, or nobody can tell.
+char DecimalMarkOf(const std::vector<std::string>& fields, char separator);
 
 // A field as it is written between commas: one with a comma, a quotation mark or a line end stands
 // in quotation marks (RFC 4180).

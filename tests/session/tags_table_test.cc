@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "session/tags_table.h"
 
+#include "scene/formats/csv.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/osu_io.h"
 #include "scene/formats/scene_folder.h"
@@ -77,8 +78,49 @@ TEST(TagsTable, SaysWhatItCannotHold) {
   tag.roll_deg = 0;
   EXPECT_EQ(narrow.FormatRow("s1", tag, ""), "s1,70.25,-55,6,14,2,8,1.5,54");
   EXPECT_THAT(ThrownMessage([&] { TagsTable("tags.csv", "\xFF\xFEi"); }), HasSubstr("UTF-16"));
+  EXPECT_THAT(ThrownMessage([&] { TagsTable("tags.csv", "image,x\nS\xFC\x64,1\n"); }),
+              HasSubstr("is not UTF-8"));
   const TagsTable geodetic("tags.csv", "image,lat,lon,height,i,j,k,a,v\n");
   EXPECT_THAT(ThrownMessage([&] { geodetic.FormatRow("s1", tag, ""); }), HasSubstr("convert"));
+}
+
+TEST(TagsTable, ANameThatWouldBeTakenApartIsQuoted) {
+  const std::string header = "image,x,y,z,i,j,k,a,v,roll,k1,shift_x,shift_y\n";
+  for (const std::string name : {"Smith, north", "the \"hall\"", "5 % grey"}) {
+    const TagsTable table("tags.csv", header);
+    const std::string with = table.With(name, table.FormatRow(name, SecondTag(), ""));
+    const TagsTable again("tags.csv", with);
+    ASSERT_TRUE(again.Row(name)) << with;
+    EXPECT_EQ(again.FormatRow(name, SecondTag(), ""), *again.Row(name));
+    const TemporaryFolder folder;
+    const CsvTable read(folder.Write("tags.csv", with));
+    ASSERT_EQ(read.rows().size(), 1u);
+    EXPECT_EQ(read.rows()[0].fields[0], name);
+  }
+}
+
+TEST(TagsTable, ANumberStaysApartFromAComment) {
+  const TagsTable table("tags.csv",
+                        "image,x,y,z,i,j,k,a,v,k1,roll\ns1,1,2,3,4,5,6,1.5,54,,% paced\n");
+  EXPECT_EQ(table.FormatRow("s1", SecondTag(), ""), "s1,70.25,-55,6,14,2,8,1.5,54,,-0.5 % paced");
+}
+
+TEST(TagsTable, OneNumberWithThousandsMakesNoDecimalCommas) {
+  const TagsTable table(
+      "tags.csv",
+      "image;x;y;z;i;j;k;a;v;roll\ns1;5,123;2.5;3;4;5;6;1.5;50;\ns2;1;2;3;4;5;6;1;5;\n");
+  EXPECT_EQ(table.FormatRow("s2", SecondTag(), ""), "s2;70.25;-55;6;14;2;8;1.5;54;-0.5");
+  const TagsTable mixed("tags.csv", "image;x;y;z;i;j;k;a;v;roll\ns1;5,12;2.5;3;4;5;6;1.5;50;\n");
+  EXPECT_THAT(ThrownMessage([&] { mixed.FormatRow("s1", SecondTag(), ""); }),
+              HasSubstr("decimal points and with commas"));
+}
+
+TEST(TagsTable, DeviationsWithoutAColumnAreNamed) {
+  const TagsTable table("tags.csv", kTable);
+  ViewTag tag = SecondTag();
+  EXPECT_EQ(table.SigmasWithoutColumn(tag), "");
+  tag.sigmas.shift = 0.1;
+  EXPECT_EQ(table.SigmasWithoutColumn(tag), "sigma_shift");
 }
 
 TEST(TagsTable, WritesAnglesWhereTheTableHasThem) {
