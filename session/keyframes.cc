@@ -2,9 +2,11 @@
 // Part of Groundglass.
 #include "session/keyframes.h"
 
+#include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
+#include "session/file_bytes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,26 +40,39 @@ Keyframes::Keyframes(const fs::path& folder) : folder_(folder) {
   });
   for (const fs::path& file : files) {
     cameras_.push_back(ReadKeyframe(file));
-    // Behind names that are no numbers, too: those come after all numbers.
+    last_stem_ = file.stem().string();
     const std::optional<double> number = ParseNumber(file.stem().string());
     if (number && *number < 1e6) last_number_ = std::max(last_number_, static_cast<int>(*number));
   }
 }
 
 void Keyframes::Add(const Camera& camera, double lookat_distance) {
-  const fs::path file = folder_ / (std::to_string(last_number_ + 1) + ".view");
-  WriteFileAtomically(
-      file, FormatView(TagFromCamera(camera, lookat_distance), "a keyframe of `groundglass view`"));
-  ++last_number_;
+  int number = last_number_ + 1;
+  while (fs::exists(folder_ / (std::to_string(number) + ".view"))) ++number;
+  const std::string stem = std::to_string(number);
+  const fs::path file = folder_ / (stem + ".view");
+  if (!last_stem_.empty() && !NaturalLess(last_stem_, stem)) {
+    throw Error(folder_,
+                "has " + Quote(last_stem_ + ".view") + ", which comes after " + stem +
+                    ".view in a film; call the files 1.view, 2.view, ... to add some here");
+  }
+  const std::string text =
+      FormatView(TagFromCamera(camera, lookat_distance), "a keyframe of `groundglass view`");
+  WriteFileAtomically(file, text);
+  last_number_ = number;
   cameras_.push_back(camera);
-  added_.push_back(file);
+  added_.push_back({file, text});
 }
 
 bool Keyframes::RemoveLast() {
   if (added_.empty()) return false;
-  std::error_code ignored;
-  fs::remove(added_.back(), ignored);
+  const Added last = added_.back();
   added_.pop_back();
+  const std::optional<std::string> bytes = BytesOf(last.file);
+  if (bytes && *bytes != last.text) {
+    throw Error(last.file, "was changed by somebody else since it was added; it stays");
+  }
+  if (bytes) fs::remove(last.file);
   cameras_.pop_back();
   --last_number_;
   return true;

@@ -5,6 +5,7 @@
 #include "scene/camera.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace groundglass {
@@ -20,16 +21,23 @@ class Keyframes {
   const std::vector<Camera>& cameras() const { return cameras_; }
 
   // Writes the camera behind the others, its look-at point this far away. Throws Error if the file
-  // cannot be written; then nothing is added.
+  // cannot be written, or if a name that is no number would still come after it; then nothing is
+  // added. A file that has come there meanwhile is let be.
   void Add(const Camera& camera, double lookat_distance);
-  // Takes the last one back that was added here, and its file; false if there is none.
+  // Takes the last one back that was added here, and its file; false if there is none. Throws
+  // Error if the file was changed since, or cannot be removed; it stays, and is forgotten here.
   bool RemoveLast();
 
  private:
   std::filesystem::path folder_;
   std::vector<Camera> cameras_;
-  int last_number_ = 0;                       // of all files
-  std::vector<std::filesystem::path> added_;  // by this object
+  int last_number_ = 0;    // of all files
+  std::string last_stem_;  // of those that were there
+  struct Added {
+    std::filesystem::path file;
+    std::string text;
+  };
+  std::vector<Added> added_;  // by this object
 };
 
 }  // namespace groundglass

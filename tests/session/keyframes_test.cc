@@ -3,9 +3,12 @@
 #include "session/keyframes.h"
 
 #include "scene/formats/view_io.h"
+#include "scene/text.h"
 #include "session/navigator.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/thrown_message.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace groundglass {
@@ -40,6 +43,32 @@ TEST(Keyframes, AreViewFilesInTheOrderInWhichTheyWereAdded) {
   EXPECT_TRUE(keyframes.RemoveLast());
   EXPECT_FALSE(fs::exists(folder / "flight/12.view"));
   EXPECT_EQ(keyframes.cameras().size(), 11u);
+}
+
+TEST(Keyframes, FilesOfOthersAreNeitherWrittenOverNorRemoved) {
+  const TemporaryFolder folder;
+  Keyframes keyframes(folder / "flight");
+  keyframes.Add(CameraAt(1), 20);
+  folder.Write("flight/2.view", "somebody else's");
+  keyframes.Add(CameraAt(3), 20);
+  EXPECT_EQ(ReadTextFile(folder / "flight/2.view"), "somebody else's");
+  EXPECT_TRUE(fs::exists(folder / "flight/3.view"));
+  folder.Write("flight/3.view", "changed by hand");
+  EXPECT_THAT(ThrownMessage([&] { keyframes.RemoveLast(); }), testing::HasSubstr("it stays"));
+  EXPECT_EQ(ReadTextFile(folder / "flight/3.view"), "changed by hand");
+}
+
+TEST(Keyframes, ANameThatWouldComeLastIsTold) {
+  const TemporaryFolder folder;
+  {
+    Keyframes keyframes(folder / "flight");
+    keyframes.Add(CameraAt(1), 20);
+  }
+  fs::rename(folder / "flight/1.view", folder / "flight/end.view");
+  Keyframes keyframes(folder / "flight");
+  EXPECT_THAT(ThrownMessage([&] { keyframes.Add(CameraAt(2), 20); }),
+              testing::HasSubstr("'end.view', which comes after 1.view"));
+  EXPECT_EQ(keyframes.cameras().size(), 1u);
 }
 
 TEST(Keyframes, ThatCannotBeWrittenAreNotAdded) {
