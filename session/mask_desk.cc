@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/ignore_mask.h"
+#include "scene/formats/text_encoding.h"
 #include "scene/text.h"
 #include "session/file_bytes.h"
 
@@ -12,12 +13,23 @@ namespace groundglass {
 
 namespace fs = std::filesystem;
 
+// Where its mask is, or will be. Scenes tell it for photographs with a tag only.
+fs::path MaskDesk::FileOf(const SessionPhotograph& photograph) const {
+  if (photograph.mask_file) return *photograph.mask_file;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_, ignored)) {
+    const bool is_its = FoldedName(entry.path().stem().string()) == FoldedName(photograph.name);
+    if (is_its && entry.is_regular_file()) return entry.path();
+  }
+  return folder_ / (photograph.name + ".png");
+}
+
 MaskPaint& MaskDesk::Paint(int photograph) {
   const auto open = desks_.find(photograph);
   if (open != desks_.end()) return open->second.paint;
   const SessionPhotograph& of = session_.photographs()[photograph];
   if (of.size.width == 0) throw Error(of.image_file, "cannot be read, so it has no mask");
-  const fs::path file = of.mask_file.value_or(folder_ / (of.name + ".png"));
+  const fs::path file = FileOf(of);
   std::optional<std::string> bytes = BytesOf(file);
   Image8 ignore;
   if (bytes) ignore = ReadIgnoreMask(file, of.size);
@@ -29,7 +41,13 @@ MaskPaint& MaskDesk::Paint(int photograph) {
 
 bool MaskDesk::IsUnsaved(int photograph) const {
   const auto open = desks_.find(photograph);
-  return open != desks_.end() && open->second.paint.ignore().values != open->second.saved.values;
+  if (open == desks_.end()) return false;
+  const Desk& desk = open->second;
+  if (desk.compared_version != desk.paint.version()) {
+    desk.compared_version = desk.paint.version();
+    desk.is_unsaved = desk.paint.ignore().values != desk.saved.values;
+  }
+  return desk.is_unsaved;
 }
 
 bool MaskDesk::HasUnsaved() const {
@@ -70,6 +88,7 @@ SaveResult MaskDesk::Save(int photograph, bool over_others) {
     return {SaveResult::Kind::kFailed, std::string("not saved: ") + error.what()};
   }
   desk.saved = desk.paint.ignore();
+  desk.compared_version = -1;
   return {SaveResult::Kind::kSaved, "the mask of " + name + " is saved: " + desk.file.string()};
 }
 

@@ -37,7 +37,10 @@ class MaskDesk {
     std::filesystem::path file;               // where it is, or will be
     std::optional<std::string> loaded_bytes;  // nothing: there was no file
     std::optional<std::string> bytes_on_disk;
+    mutable int compared_version = -1;  // of the paint, for which this holds:
+    mutable bool is_unsaved = false;
   };
+  std::filesystem::path FileOf(const SessionPhotograph& photograph) const;
   Session& session_;
   std::filesystem::path folder_;
   std::map<int, Desk> desks_;

@@ -156,6 +156,20 @@ TEST_F(MasksOfAScene, AMaskOfSomebodyElseComesBackToTheByteAndIsNotWrittenOverUn
   EXPECT_EQ(desk.Save(0, true).kind, SaveResult::Kind::kSaved);
 }
 
+TEST_F(MasksOfAScene, AMaskOfAPhotographWithoutATagIsFoundToo) {
+  fs::remove(folder_ / "views/s1.view");
+  Image8 theirs(60, 40, 3);
+  std::fill_n(theirs.At(5, 5), 3, uint8_t{255});
+  WriteSrgb8(folder_ / "masks/S1.tif", theirs);
+  Session session = Open();
+  ASSERT_EQ(session.photographs().size(), 1u);
+  MaskDesk desk(session, folder_.path());
+  EXPECT_EQ(*desk.Paint(0).ignore().At(5, 5), 255);
+  PaintSome(desk);
+  EXPECT_THAT(desk.Save(0).message, HasSubstr("which is no .png"));
+  EXPECT_FALSE(fs::exists(folder_ / "masks/s1.png")) << "two masks for one photograph";
+}
+
 TEST_F(MasksOfAScene, WhatCannotBeWrittenIsToldAndKept) {
   Session session = Open();
   MaskDesk desk(session, folder_.path());
