@@ -174,6 +174,7 @@ class App {
   // app_flight.cc
   Keyframes* Flight();
   void FindFlight();
+  std::filesystem::path FilmedFile() const;
   void AddKeyframe();
   void RemoveKeyframe();
   void PlayFlight();
@@ -187,6 +188,7 @@ class App {
   void PressInMask(const Eigen::Vector2d& pane_px, int button, bool is_double, bool shift);
   void DragInMask(const Eigen::Vector2d& pane_px);
   void ReleaseInMask();
+  void LetGoOfMask();
   void ResizeBrush(double factor, bool is_eraser);
   bool DoInMask(Action action);
   void SaveMask(bool over_others);
@@ -338,7 +340,9 @@ class App {
   double brush_px_ = 16;  // radius, of the window
   double eraser_px_ = 16;
   bool is_erasing_ = false;
-  int depth_before_press_ = 0;  // of the mask's undo, before the last stroke
+  double mask_share_ = 0;  // of the photograph, as it is shown
+  // Of the mask's undo, before the last press in it; nothing if that was elsewhere.
+  std::optional<int> depth_before_press_;
   Eigen::Vector2d painted_px_ = Eigen::Vector2d::Zero();  // of the photograph: where the brush was
   std::vector<Eigen::Vector2d> lasso_px_;
   std::shared_ptr<const Image8> mask_shown_;

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "gui/app.h"
 #include "gui/overlay_shapes.h"
+#include "scene/shell_word.h"
 #include "viewer/camera_path.h"
 
 #include <algorithm>
@@ -38,10 +39,20 @@ Keyframes* App::Flight() {
 void App::FindFlight() {
   flight_.clear();
   const Keyframes* keyframes = Flight();
-  if (keyframes == nullptr || keyframes->cameras().size() < 2) return;
+  if (keyframes == nullptr || keyframes->cameras().size() < 2) {
+    is_playing_ = false;
+    return;
+  }
   const int num_frames =
       kFramesASecond * kSecondsAKeyframe * static_cast<int>(keyframes->cameras().size() - 1);
   flight_ = MakeFlight(session_.model(), keyframes->cameras(), num_frames);
+}
+
+// What `render` draws: it takes a scene's model, not its folder.
+std::filesystem::path App::FilmedFile() const {
+  const Scene& scene = document_.opened.scene;
+  return document_.opened.is_output || scene.model_file.empty() ? options_.folder
+                                                                : scene.model_file;
 }
 
 void App::AddKeyframe() {
@@ -54,8 +65,8 @@ void App::AddKeyframe() {
     shows_flight_ = true;
     FindFlight();
     message_ = "keyframe " + std::to_string(keyframes->cameras().size()) +
-               "; a film of them: groundglass render " + options_.folder.string() + " --path " +
-               keyframes->folder().string() + " -o flight.mp4";
+               "; a film of them: groundglass render " + ShellWord(FilmedFile()) + " --path " +
+               ShellWord(keyframes->folder()) + " -o flight.mp4";
   } catch (const std::exception& error) {
     message_ = std::string("no keyframe: ") + error.what();
   }
@@ -64,8 +75,12 @@ void App::AddKeyframe() {
 void App::RemoveKeyframe() {
   Keyframes* keyframes = Flight();
   if (keyframes == nullptr) return;
-  message_ = keyframes->RemoveLast() ? "the last keyframe is taken back"
-                                     : "no keyframe was added since the window opened";
+  try {
+    message_ = keyframes->RemoveLast() ? "the last keyframe is taken back"
+                                       : "no keyframe was added since the window opened";
+  } catch (const std::exception& error) {
+    message_ = error.what();
+  }
   FindFlight();
 }
 

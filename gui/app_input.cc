@@ -73,6 +73,7 @@ void App::Do(Action action, const KeyPress& press) {
 
 bool App::DoEverywhere(Action action) {
   const auto set_mode = [&](WindowMode mode) {
+    LetGoOfMask();
     mode_ = mode;
     const bool needs_photograph = mode == WindowMode::kTag || mode == WindowMode::kMask;
     if (needs_photograph && photograph_ < 0 && !session_.photographs().empty()) photograph_ = 0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace groundglass {
 
@@ -26,6 +27,9 @@ std::shared_ptr<const Image8> App::ShownMask() {
   if (mask == nullptr) return nullptr;
   if (mask_of_ != photograph_ || mask_version_ != mask->version() || !mask_shown_) {
     mask_shown_ = std::make_shared<const Image8>(mask->ignore());
+    const auto& values = mask_shown_->values;
+    mask_share_ = static_cast<double>(std::count(values.begin(), values.end(), 255)) /
+                  static_cast<double>(values.size());
     mask_of_ = photograph_;
     mask_version_ = mask->version();
   }
@@ -41,6 +45,8 @@ void App::PressInMask(const Eigen::Vector2d& pane_px, int button, bool is_double
   if (mask == nullptr) return;
   is_erasing_ = button == SDL_BUTTON_RIGHT;
   const Eigen::Vector2d at_px = place_.InPhotograph(pane_px);
+  const std::optional<int> depth_before_click = std::exchange(depth_before_press_, std::nullopt);
+  if (!is_double) depth_before_press_ = mask->UndoDepth();
   if (shift) {
     gesture_ = Gesture::kLasso;
     lasso_px_ = {at_px};
@@ -49,12 +55,11 @@ void App::PressInMask(const Eigen::Vector2d& pane_px, int button, bool is_double
   const auto picture = cache_.Find(photograph_);
   if (is_double && picture) {
     // In place of the dab of the first click, if that changed anything.
-    if (mask->UndoDepth() > depth_before_press_) mask->Undo();
+    if (depth_before_click && mask->UndoDepth() > *depth_before_click) mask->Undo();
     mask->Flood(*picture, at_px, !is_erasing_);
     return;
   }
   gesture_ = Gesture::kPaint;
-  depth_before_press_ = mask->UndoDepth();
   painted_px_ = at_px;
   mask->BeginStroke();
   DragInMask(pane_px);
@@ -82,6 +87,15 @@ void App::ReleaseInMask() {
   lasso_px_.clear();
 }
 
+// Ends a stroke or a lasso where it is.
+void App::LetGoOfMask() {
+  depth_before_press_.reset();
+  if (gesture_ != Gesture::kPaint && gesture_ != Gesture::kLasso) return;
+  if (MaskPaint* mask = Mask(); mask != nullptr && gesture_ == Gesture::kPaint) mask->EndStroke();
+  lasso_px_.clear();
+  gesture_ = Gesture::kNone;
+}
+
 void App::ResizeBrush(double factor, bool is_eraser) {
   double& radius_px = is_eraser ? eraser_px_ : brush_px_;
   radius_px = std::clamp(radius_px * factor, 1.0, 300.0);
@@ -91,7 +105,10 @@ void App::ResizeBrush(double factor, bool is_eraser) {
 bool App::DoInMask(Action action) {
   constexpr double kStep = 1.25;
   MaskPaint* mask = Mask();
-  if (mask == nullptr) return false;
+  // A mask that cannot be read is nothing to undo or save, and so is what lies behind it.
+  if (mask == nullptr) {
+    return action == Action::kUndo || action == Action::kRedo || action == Action::kSave;
+  }
   switch (action) {
     case Action::kUndo:
       if (!mask->Undo()) message_ = "nothing to undo in this mask";
@@ -162,11 +179,7 @@ void App::DrawMaskPanel() {
   };
   size("brush", brush_px_);
   size("eraser", eraser_px_);
-  const auto& values = mask->ignore().values;
-  const auto ignored = std::count(values.begin(), values.end(), 255);
-  ImGui::Text("%.1f %% of the photograph, %d steps",
-              100.0 * static_cast<double>(ignored) / static_cast<double>(values.size()),
-              mask->UndoDepth());
+  ImGui::Text("%.1f %% of the photograph, %d steps", 100 * mask_share_, mask->UndoDepth());
   if (ImGui::Button("Ctrl+S save the mask")) SaveMask(false);
 }
 

@@ -39,6 +39,7 @@ void App::HandleMouseButton(const SDL_MouseButtonEvent& button) {
     gesture_ = Gesture::kNone;
     return;
   }
+  if (IsCovered() || !pane_.Holds(button.x, button.y)) depth_before_press_.reset();
   if (IsCovered()) return;
   if (plan_.Holds(button.x, button.y)) PressOnPlan(button.x, button.y);
   if (!pane_.Holds(button.x, button.y)) return;

@@ -25,7 +25,7 @@ void App::ChangePins(const Pins& pins, const std::string& gesture) {
   session_.Change(photograph_, std::move(work), gesture);
 }
 
-// What is under way on pins that may not be there any more.
+// What is under way on pins that may not be there any more, or on this photograph's mask.
 void App::LetGo() {
   pin_.reset();
   armed_point_.reset();
@@ -34,6 +34,7 @@ void App::LetGo() {
   if (gesture_ == Gesture::kPin || gesture_ == Gesture::kLine || gesture_ == Gesture::kNewPin) {
     gesture_ = Gesture::kNone;
   }
+  LetGoOfMask();
 }
 
 bool App::HasPin(const Pins& pins) const {

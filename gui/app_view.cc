@@ -105,8 +105,8 @@ void App::MoveEye(const Eye& eye) {
 }
 
 void App::Choose(int photograph, bool enter) {
-  photograph_ = photograph;
   LetGo();
+  photograph_ = photograph;
   session_.EndGesture();
   message_.clear();
   if (!enter) return;

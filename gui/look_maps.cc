@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "gui/look_maps.h"
 
+#include "scene/error.h"
+
 #include <chrono>
 
 namespace groundglass {
@@ -32,11 +34,27 @@ LookMaps::~LookMaps() {
 
 std::shared_ptr<const LookMaps::Asked> LookMaps::AskAll() const {
   auto asked = std::make_shared<Asked>();
-  auto cells = MapSurvey(survey_, visibility_, is_ending_);
-  if (!cells) return nullptr;
-  asked->cells = std::move(*cells);
-  if (!folder_.empty()) asked->texels = ReadTexelSources(folder_, textured_);
+  try {
+    auto cells = MapSurvey(survey_, visibility_, is_ending_);
+    if (!cells) return nullptr;
+    asked->cells = std::move(*cells);
+  } catch (const std::exception& error) {
+    asked->fault = error.what();
+    return asked;
+  }
+  try {
+    if (!folder_.empty()) asked->texels = ReadTexelSources(folder_, textured_);
+  } catch (const std::exception& error) {
+    asked->texels_fault = error.what();
+  }
   return asked;
+}
+
+std::shared_ptr<const ColouredModel> LookMaps::Colour(LookMap map, const Asked& asked) const {
+  if (!asked.fault.empty()) throw Error(asked.fault);
+  if (map == LookMap::kProvenance && !asked.texels_fault.empty()) throw Error(asked.texels_fault);
+  return ColourModel(map,
+                     {&textured_, &survey_, &asked.cells, asked.texels ? &*asked.texels : nullptr});
 }
 
 std::shared_ptr<const ColouredModel> LookMaps::Find(LookMap map) {
@@ -45,24 +63,19 @@ std::shared_ptr<const ColouredModel> LookMaps::Find(LookMap map) {
   }
   auto& made = maps_[map];
   if (!made.valid()) {
-    made =
-        std::async(std::launch::async, [this, map, from = asked_] {
-          const auto asked = from.get();
-          std::shared_ptr<const ColouredModel> coloured;
-          if (asked) {
-            coloured = ColourModel(
-                map,
-                {&textured_, &survey_, &asked->cells, asked->texels ? &*asked->texels : nullptr});
-          }
-          on_done_();
-          return coloured;
-        }).share();
+    made = std::async(std::launch::async, [this, map, from = asked_] {
+             // Also where it ends in an error, which Find() throws.
+             const std::shared_ptr<void> told(nullptr, [this](void*) { on_done_(); });
+             const auto asked = from.get();
+             return asked ? Colour(map, *asked) : nullptr;
+           }).share();
   }
   return IsThere(made) ? made.get() : nullptr;
 }
 
 const std::vector<FaceCells>* LookMaps::Cells() const {
-  return IsThere(asked_) && asked_.get() ? &asked_.get()->cells : nullptr;
+  if (!IsThere(asked_) || !asked_.get() || !asked_.get()->fault.empty()) return nullptr;
+  return &asked_.get()->cells;
 }
 
 }  // namespace groundglass

@@ -42,9 +42,12 @@ class LookMaps {
   struct Asked {
     std::vector<FaceCells> cells;
     std::optional<TexelSources> texels;
+    std::string fault;         // why there are no cells
+    std::string texels_fault;  // why texels cannot be told, where pictures say whose they are
   };
   // Null if the object ended meanwhile.
   std::shared_ptr<const Asked> AskAll() const;
+  std::shared_ptr<const ColouredModel> Colour(LookMap map, const Asked& asked) const;
 
   std::filesystem::path folder_;
   const TexturedModel& textured_;

@@ -86,7 +86,8 @@ void App::DrawPhotographs() {
              : verdict == Verdict::kReview ? "\u25B2 "
                                            : "\u2717 ";
       state = VerdictName(verdict);
-      const bool is_other_tag = HasCorrection(verdict) && session_.UndoDepth(i) == 0;
+      const bool is_other_tag =
+          HasCorrection(verdict) && session_.UndoDepth(i) == 0 && !session_.HasFound(i);
       if (is_other_tag) state += ", tag changed since";
     }
     if (work.alignment) state = VerdictName(work.alignment->verdict);

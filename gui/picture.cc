@@ -145,6 +145,7 @@ Image8 PictureMaker::DrawFrom(const Camera& camera, const PictureRequest& reques
   }
   if (!request.coloured) return renderer_.Render(camera, OptionsFor(request));
   if (coloured_ != request.coloured) {
+    coloured_.reset();  // should the next fail
     coloured_renderer_.emplace(*request.coloured);
     coloured_ = request.coloured;
   }

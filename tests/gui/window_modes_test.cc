@@ -114,6 +114,8 @@ TEST(Window, KeyframesAreKeptAsViewFilesAndFlown) {
   }
   EXPECT_TRUE(fs::exists(folder / "hall/flight/1.view"));
   EXPECT_TRUE(fs::exists(folder / "hall/flight/2.view"));
+  // Taken back while it flies through them.
+  window.Key("Shift+K");
   window.Key("Ctrl+K");
   EXPECT_EQ(window.Fence()["keyframes"], 1);
   EXPECT_FALSE(fs::exists(folder / "hall/flight/2.view"));
@@ -121,7 +123,7 @@ TEST(Window, KeyframesAreKeptAsViewFilesAndFlown) {
 
 TEST(Window, AMaskIsPaintedErasedUndoneAndSaved) {
   const TemporaryFolder folder;
-  MakeScene(folder / "hall", {"s5"}, {});
+  MakeScene(folder / "hall", {"s5", "s6"}, {});
   const Desktop desktop(1280, 900);
   WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
   window.Key("F5");
@@ -148,6 +150,17 @@ TEST(Window, AMaskIsPaintedErasedUndoneAndSaved) {
   window.Key("Ctrl+S");
   window.Fence();
   EXPECT_FALSE(fs::exists(folder / "hall/masks/s5.png"));
+  // A stroke ends where the photograph is left, and does not go on in the next one.
+  window.MoveTo(InWindow(state, {300, 300}));
+  window.Button(1, true);
+  window.MoveTo(InWindow(state, {400, 300}));
+  window.Key("Alt+Right");
+  window.MoveTo(InWindow(state, {500, 300}));
+  window.Button(1, false);
+  state = window.Fence();
+  EXPECT_EQ(state["photograph"], "s6");
+  EXPECT_EQ(state["masked"], 0);
+  EXPECT_FALSE(state["mask_unsaved"].get<bool>());
 }
 
 }  // namespace
