@@ -35,12 +35,14 @@ function(groundglass_room name)
   target_compile_options(${target} PRIVATE ${GROUNDGLASS_WARNINGS})
   if(ROOM_QUICK_TO_BUILD)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    groundglass_precompile(${target} precompiled_quick ${GROUNDGLASS_COMMON_HEADERS})
   endif()
   if(ROOM_QUICK)
     add_library(${target}_quick OBJECT ${ROOM_QUICK})
     target_include_directories(${target}_quick PRIVATE ${PROJECT_SOURCE_DIR})
     target_link_libraries(${target}_quick PRIVATE ${ROOM_NEEDS} ${ROOM_PRIVATE})
     target_compile_options(${target}_quick PRIVATE ${GROUNDGLASS_WARNINGS} $<$<CONFIG:Release>:-O1>)
+    groundglass_precompile(${target}_quick precompiled_quick ${GROUNDGLASS_COMMON_HEADERS})
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_quick>)
   endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${target_suffix})
@@ -59,30 +61,34 @@ function(groundglass_room name)
   endforeach()
 endfunction()
 
-# Two thirds of a test's compiling is the reading of GoogleTest and Eigen: they are read once, for
-# every test program. Not where each source is to be compiled alone, so that it includes what it uses.
-function(groundglass_precompile target)
+# groundglass_precompile(target NAME HEADERS...): reads the headers once for all targets of that name,
+# which are compiled with -O1. Much of the compiling is the reading of Eigen and the standard library.
+# Not where each source is to be compiled alone, so that it includes what it uses; nor with -O3, where
+# GCC 12 then warns falsely of std::string's own copies.
+function(groundglass_precompile target name)
   if(NOT CMAKE_UNITY_BUILD)
     return()
   endif()
-  if(NOT TARGET tests_precompiled)
-    set(source ${PROJECT_BINARY_DIR}/tests_precompiled.cc)
+  if(NOT TARGET ${name})
+    set(source ${PROJECT_BINARY_DIR}/${name}.cc)
     file(CONFIGURE OUTPUT ${source} CONTENT "\n")
-    add_library(tests_precompiled OBJECT ${source})
-    target_link_libraries(tests_precompiled PRIVATE GTest::gtest GTest::gmock Eigen3::Eigen)
-    target_compile_options(tests_precompiled PRIVATE ${GROUNDGLASS_WARNINGS}
-      $<$<CONFIG:Release>:-O1>)
-    target_compile_definitions(tests_precompiled PRIVATE
-      GROUNDGLASS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    target_precompile_headers(tests_precompiled PRIVATE
-      <gmock/gmock.h> <gtest/gtest.h> <Eigen/Dense> <algorithm> <array> <cmath> <filesystem>
-      <fstream> <functional> <map> <optional> <random> <set> <span> <sstream> <string> <vector>)
+    add_library(${name} OBJECT ${source})
+    target_link_libraries(${name} PRIVATE Eigen3::Eigen)
+    if("<gtest/gtest.h>" IN_LIST ARGN)
+      target_link_libraries(${name} PRIVATE GTest::gtest GTest::gmock)
+    endif()
+    target_compile_options(${name} PRIVATE ${GROUNDGLASS_WARNINGS} $<$<CONFIG:Release>:-O1>)
+    target_precompile_headers(${name} PRIVATE ${ARGN})
   endif()
-  target_precompile_headers(${target} REUSE_FROM tests_precompiled)
+  target_precompile_headers(${target} REUSE_FROM ${name})
 endfunction()
 
+# What nearly every source reads.
+set(GROUNDGLASS_COMMON_HEADERS <Eigen/Dense> <algorithm> <array> <cmath> <filesystem> <fstream>
+    <functional> <map> <optional> <random> <set> <span> <sstream> <string> <vector>)
+
 # groundglass_test(register NEEDS groundglass::register SOURCES a_test.cc)
-# One GoogleTest program for each room; each of its suites is a ctest.
+# One GoogleTest program for each room; a few of its suites at a time are a ctest.
 function(groundglass_test room)
   cmake_parse_arguments(T "" "" "SOURCES;NEEDS" ${ARGN})
   string(REPLACE "-" "_" suffix ${room})
@@ -98,7 +104,8 @@ function(groundglass_test room)
   target_compile_options(${target} PRIVATE ${GROUNDGLASS_WARNINGS} $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${target} PRIVATE
     GROUNDGLASS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  groundglass_precompile(${target})
+  groundglass_precompile(${target} precompiled_for_tests <gmock/gmock.h> <gtest/gtest.h>
+                         ${GROUNDGLASS_COMMON_HEADERS})
   set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
   set(script ${PROJECT_SOURCE_DIR}/cmake/ListTestSuites.cmake)
   add_custom_command(TARGET ${target} POST_BUILD
