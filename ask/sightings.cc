@@ -7,6 +7,7 @@
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/formats/ignore_mask.h"
+#include "scene/least_norm.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,9 +39,11 @@ int FaceTowards(const Survey& survey, const Place& place, const Eigen::Vector3d&
 }
 
 // Larger singular value first.
-std::array<double, 2> SingularValues(const Eigen::MatrixXd& matrix) {
-  const Eigen::Vector2d values = matrix.jacobiSvd().singularValues();
-  return {values[0], values[1]};
+std::array<double, 2> SingularValues(const Eigen::Matrix2d& matrix) {
+  // Of (a b; c d), half the lengths of (a + d, c - b) and (a - d, c + b), added and subtracted.
+  const double turned = std::hypot(matrix(0, 0) + matrix(1, 1), matrix(1, 0) - matrix(0, 1)) / 2;
+  const double mirrored = std::hypot(matrix(0, 0) - matrix(1, 1), matrix(1, 0) + matrix(0, 1)) / 2;
+  return {turned + mirrored, std::abs(turned - mirrored)};
 }
 
 void Set(Sighting& sighting, SightingState state, const std::string& reason) {
@@ -192,7 +195,7 @@ std::optional<std::array<double, 2>> TexelSize(const Survey& survey, int face) {
     on_face.row(i) << corner.dot(across), corner.dot(up), 1;
     on_page.row(i) = texture.corners_texel[i].transpose();
   }
-  const Eigen::MatrixXd page_from_face = on_face.colPivHouseholderQr().solve(on_page);
+  const Eigen::MatrixXd page_from_face = SolveLeastNorm(on_face, on_page);
   const std::array<double, 2> texels_per_unit = SingularValues(page_from_face.topRows(2));
   if (!(texels_per_unit[1] > 0)) return std::nullopt;
   return std::array<double, 2>{1 / texels_per_unit[1], 1 / texels_per_unit[0]};

@@ -2,7 +2,9 @@
 // Part of Groundglass.
 #include "calibrate/board_solve.h"
 
+#include "scene/cholesky.h"
 #include "scene/error.h"
+#include "scene/least_norm.h"
 #include "scene/quantile.h"
 #include "scene/symmetric_eigen.h"
 
@@ -85,7 +87,7 @@ AprilTagResidual MakeResidual(const Board& board,
   AprilTagResidual residual;
   residual.corners_on_board = AprilTagCornersOnBoard(board, april_tag.id);
   residual.observed_px = april_tag.corners_px;
-  residual.root_information = april_tag.information.llt().matrixU();
+  residual.root_information = UpperCholeskyFactor(april_tag.information);
   residual.width_px = width_px;
   residual.height_px = height_px;
   return residual;
@@ -197,7 +199,7 @@ LensVector EstimateLens(const Board& board,
         h(1, 0) * h(1, 0) - h(1, 1) * h(1, 1);
     right[row + 1] = h(2, 1) * h(2, 1) - h(2, 0) * h(2, 0);
   }
-  const Eigen::Vector2d inverse_squares = left.colPivHouseholderQr().solve(right);
+  const Eigen::Vector2d inverse_squares = SolveLeastNorm(left, right);
   double focal_x_px = inverse_squares[0] > 0 ? scale_px / std::sqrt(inverse_squares[0]) : 0;
   double focal_y_px = inverse_squares[1] > 0 ? scale_px / std::sqrt(inverse_squares[1]) : 0;
   // Frontal photographs, or strong distortion, can make nonsense of it: then a normal lens with

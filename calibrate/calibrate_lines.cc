@@ -6,6 +6,7 @@
 #include "calibrate/line_segments.h"
 #include "calibrate/lines_cost.h"
 #include "scene/check_option.h"
+#include "scene/cholesky.h"
 #include "scene/frames.h"
 
 #include <ceres/ceres.h>
@@ -207,11 +208,10 @@ std::optional<LinesSolver::Covariance> LinesSolver::FindCovariance() const {
     }
     information += by_numbers * by_numbers.transpose();
   }
-  const Eigen::LLT<Covariance> factors(information);
-  if (factors.info() != Eigen::Success) return std::nullopt;
-  const Covariance all = factors.solve(Covariance::Identity());
+  const std::optional<Eigen::MatrixXd> all = InvertByCholesky(information);
+  if (!all) return std::nullopt;
   const double scale = spread_ * options_.inflation;
-  return all * scale * scale;
+  return *all * scale * scale;
 }
 
 // Lines that lie together err together: what the camera would be without each part of those that

@@ -7,6 +7,7 @@
 #include "calibrate/seen_tag_cost.h"
 #include "calibrate/square_poses.h"
 #include "scene/check_option.h"
+#include "scene/cholesky.h"
 #include "scene/frames.h"
 
 #include <ceres/ceres.h>
@@ -175,10 +176,9 @@ std::optional<TagsSolver::Covariance> TagsSolver::FindCovariance(const TagsState
       dense(row, jacobian.cols[at]) = jacobian.values[at];
     }
   }
-  const Eigen::LLT<Eigen::MatrixXd> factors(dense.transpose() * dense);
-  if (factors.info() != Eigen::Success) return std::nullopt;
-  const Eigen::MatrixXd all = factors.solve(Eigen::MatrixXd::Identity(dense.cols(), dense.cols()));
-  return Covariance(all.topLeftCorner<kNumFree, kNumFree>());
+  const std::optional<Eigen::MatrixXd> all = InvertByCholesky(dense.transpose() * dense);
+  if (!all) return std::nullopt;
+  return Covariance(all->topLeftCorner<kNumFree, kNumFree>());
 }
 
 Eigen::Matrix<double, 8, 1> TagsSolver::Numbers(const TagsState& state, double distance) const {
@@ -248,8 +248,7 @@ std::vector<SeenTag> FindSeenTags(const Image8& srgb_grey,
     tag.place = *place;
     if (const auto measured = MeasureAprilTagCorners(srgb_grey, detection, kWhiteBeside, lens)) {
       tag.corners_px = measured->corners_px;
-      tag.root_information =
-          Eigen::LLT<Eigen::Matrix<double, 8, 8>>(measured->information).matrixU();
+      tag.root_information = UpperCholeskyFactor(measured->information);
     } else {
       tag.corners_px = Eigen::Map<const Eigen::Matrix<double, 8, 1>>(detection.corners_px.data());
       tag.root_information.setIdentity();

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "drawing/drawing_layers.h"
 
+#include "scene/least_norm.h"
 #include "scene/model_sigma.h"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ DrawingLayers::FaceMap DrawingLayers::MakeFaceMap(const OrthographicView& view, 
     on_page.row(i) = texels[i].transpose();
   }
   map.page = textured_.faces[face].page;
-  map.texel_from_px = in_view.colPivHouseholderQr().solve(on_page).transpose();
+  map.texel_from_px = SolveLeastNorm(in_view, on_page).transpose();
   return map;
 }
 

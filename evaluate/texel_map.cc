@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "evaluate/texel_map.h"
 
+#include "scene/least_norm.h"
+
 namespace groundglass {
 
 TexelMap FitTexelMap(const PolygonModel& model, int face, const FaceTexture& texture) {
@@ -18,10 +20,14 @@ TexelMap FitTexelMap(const PolygonModel& model, int face, const FaceTexture& tex
   }
   const Eigen::RowVector3d point_center = points.colwise().mean();
   const Eigen::RowVector2d texel_center = texels.colwise().mean();
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(points.rowwise() - point_center,
-                                        Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(1e-6);
-  const Eigen::MatrixXd linear = svd.solve(texels.rowwise() - texel_center);
+  // In the plane's own two directions: what corners lie off it by is no third.
+  const Eigen::Vector3d normal = ComputeFacePlane(model, face).normal_in_world;
+  Eigen::Matrix<double, 3, 2> plane_axes;
+  plane_axes.col(0) = normal.unitOrthogonal();
+  plane_axes.col(1) = normal.cross(plane_axes.col(0));
+  const Eigen::MatrixXd linear =
+      plane_axes * SolveLeastNorm((points.rowwise() - point_center) * plane_axes,
+                                  texels.rowwise() - texel_center);
   map.texel_from_world.leftCols<3>() = linear.transpose();
   map.texel_from_world.col(3) =
       texel_center.transpose() - linear.transpose() * point_center.transpose();

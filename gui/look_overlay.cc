@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "gui/app.h"
 #include "gui/overlay_shapes.h"
+#include "scene/symmetric_eigen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,10 +45,9 @@ void App::DrawEllipsoid(const Eigen::Vector3d& middle_in_world,
                         unsigned colour,
                         bool is_dashed) {
   const Camera camera = PaneCamera();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
+  const SymmetricEigen axes = DecomposeSymmetric(covariance);
   const Eigen::Matrix3d half_axes =
-      axes.eigenvectors() *
-      (kSigmasOf95Percent * axes.eigenvalues().cwiseMax(0).cwiseSqrt()).asDiagonal();
+      axes.vectors * (kSigmasOf95Percent * axes.values.cwiseMax(0).cwiseSqrt()).asDiagonal();
   constexpr int kNumPoints = 48;
   for (int plane = 0; plane < 3; ++plane) {
     std::vector<ImVec2> loop;

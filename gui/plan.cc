@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "gui/app.h"
+#include "scene/symmetric_eigen.h"
 
 #include <imgui/imgui.h>
 
@@ -79,14 +80,12 @@ void App::DrawPlan() {
   if (photograph_ >= 0 && session_.Solution(photograph_)) {
     // One standard deviation of where it stood.
     const PinSolution& solution = *session_.Solution(photograph_);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
-        solution.covariance.topLeftCorner<2, 2>());
+    const SymmetricEigen axes = DecomposeSymmetric(solution.covariance.topLeftCorner<2, 2>());
     std::vector<ImVec2> ring;
     for (int i = 0; i < 32; ++i) {
       const double angle = 2 * M_PI * i / 32;
-      const Eigen::Vector2d by =
-          axes.eigenvectors() * (axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
-                                 Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+      const Eigen::Vector2d by = axes.vectors * (axes.values.cwiseMax(0).cwiseSqrt().asDiagonal() *
+                                                 Eigen::Vector2d(std::cos(angle), std::sin(angle)));
       ring.push_back(
           OnScreen(frame, solution.parameters.head<3>() + Eigen::Vector3d(by.x(), by.y(), 0)));
     }

@@ -84,8 +84,9 @@ std::string FormatFaceNumbers(const PolygonModel& model) {
     is_plain = is_plain && first == face + 1;
     int last = first;
     while (++face < num_faces && FaceNumber(model, face) == last + 1) ++last;
-    text += (text.empty() ? "" : " ") + std::to_string(first);
-    if (last > first) text += "-" + std::to_string(last);
+    if (!text.empty()) text += ' ';
+    text += std::to_string(first);
+    if (last > first) text.append(1, '-').append(std::to_string(last));
   }
   return is_plain ? "" : text;
 }

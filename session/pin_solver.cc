@@ -4,6 +4,7 @@
 
 #include "register/register.h"
 #include "scene/check_option.h"
+#include "scene/least_norm.h"
 #include "session/pin_cost.h"
 
 #include <ceres/ceres.h>
@@ -120,7 +121,7 @@ std::vector<CameraParameters> Starts(const CameraPrior& prior,
 CameraParameters WhitenedOf(const CameraPrior& prior, const CameraParameters& parameters) {
   CameraParameters change = parameters - prior.mean;
   change[kYaw] -= 360 * std::round(change[kYaw] / 360);
-  return prior.root.completeOrthogonalDecomposition().solve(change);
+  return SolveLeastNorm(prior.root, change);
 }
 
 // Baarda's test: a residual against its own deviation, which is less than the pin's by what the
@@ -203,7 +204,7 @@ CameraCovariance PosteriorCovariance(const Pins& pins,
   if (cost.num_residuals() > 0 && cost.Evaluate(blocks, residuals.data(), jacobians)) {
     information += jacobian.transpose() * jacobian;
   }
-  return prior.root * information.inverse() * prior.root.transpose();
+  return prior.root * SolveLeastNorm(information, prior.root.transpose());
 }
 
 }  // namespace

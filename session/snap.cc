@@ -4,6 +4,7 @@
 
 #include "scene/check_option.h"
 #include "scene/srgb.h"
+#include "scene/symmetric_eigen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,13 +76,13 @@ std::optional<Eigen::Vector2d> SnapToPicture(const Image8& srgb8,
   constexpr double kStillPx = 1e-3;
   for (int step = 0; step < kMostSteps; ++step) {
     const GradientSums sums = SumAround(srgb8, at, options.window_px);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(sums.squares);
-    const double strong = axes.eigenvalues()[1];
-    const double weak = axes.eigenvalues()[0];
+    const SymmetricEigen axes = DecomposeSymmetric(sums.squares);
+    const double strong = axes.values[1];
+    const double weak = axes.values[0];
     if (!(strong > sums.weight * options.least_contrast * options.least_contrast)) {
       return std::nullopt;
     }
-    const Eigen::Vector2d across = axes.eigenvectors().col(1);
+    const Eigen::Vector2d across = axes.vectors.col(1);
     const bool is_corner = weak > options.corner_share * strong;
     const Eigen::Vector2d by = is_corner ? Eigen::Vector2d(sums.squares.inverse() * sums.pull)
                                          : across * (across.dot(sums.pull) / strong);
