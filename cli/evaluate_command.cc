@@ -44,7 +44,7 @@ fs::path FindModel(const fs::path& truth_folder) {
   const fs::path scene_folder =
       fs::absolute(truth_folder / ".").lexically_normal().parent_path().parent_path();
   for (const char* extension : {".osu", ".obj", ".ply", ".glb"}) {
-    const fs::path file = scene_folder / (std::string("model") + extension);
+    fs::path file = scene_folder / (std::string("model") + extension);
     if (fs::exists(file)) return file;
   }
   throw Error(scene_folder, "no model beside the truth folder; name it with --model");

@@ -52,7 +52,7 @@ std::string Percent(double share) {
 }
 
 std::string FormatSpread(const Spread& spread) {
-  const std::string middle = FormatLength(spread.middle);
+  std::string middle = FormatLength(spread.middle);
   if (FormatLength(spread.low) == FormatLength(spread.high)) return middle;
   return middle + " (" + FormatLength(spread.low) + " to " + FormatLength(spread.high) + ")";
 }

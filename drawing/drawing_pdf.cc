@@ -186,8 +186,10 @@ void DrawLegend(PdfPage& page, const LayerPicture& layer, const Layout& layout) 
   const double column_mm = layout.text_width_mm / 6;
   for (size_t i = 0; i < layer.legend.size(); ++i) {
     const LayerPicture::Entry& entry = layer.legend[i];
-    const Eigen::Vector2d at(kBorderMm + column_mm * static_cast<double>(i % 6),
-                             kBorderMm + kLineMm * static_cast<double>(i / 6));
+    const size_t column = i % 6;
+    const size_t row = i / 6;
+    const Eigen::Vector2d at(kBorderMm + column_mm * static_cast<double>(column),
+                             kBorderMm + kLineMm * static_cast<double>(row));
     page.SetFill(entry.colour[0] / 255.0, entry.colour[1] / 255.0, entry.colour[2] / 255.0);
     page.FillRectangle(at, {3, 2});
     page.SetFill(0, 0, 0);

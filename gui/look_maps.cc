@@ -66,7 +66,7 @@ std::shared_ptr<const ColouredModel> LookMaps::Find(LookMap map) {
     made = std::async(std::launch::async, [this, map, from = asked_] {
              // Also where it ends in an error, which Find() throws.
              const std::shared_ptr<void> told(nullptr, [this](void*) { on_done_(); });
-             const auto asked = from.get();
+             const auto& asked = from.get();
              return asked ? Colour(map, *asked) : nullptr;
            }).share();
   }

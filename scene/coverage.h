@@ -11,6 +11,13 @@
 
 namespace groundglass {
 
+// What no photograph shows of a face.
+struct MissingCoverage {
+  Eigen::Vector3d centre_in_world = Eigen::Vector3d::Zero();
+  // From where it could be photographed: nothing of the model stands between.
+  std::optional<Eigen::Vector3d> stand_in_world;
+};
+
 // How much of one face the photographs show.
 struct FaceCoverage {
   int face = -1;   // in the model, from 0
@@ -28,12 +35,7 @@ struct FaceCoverage {
   };
   std::vector<Source> sources;  // most texels first
   // What no photograph shows, if it is more than a hundredth of the face.
-  struct Missing {
-    Eigen::Vector3d centre_in_world = Eigen::Vector3d::Zero();
-    // From where it could be photographed: nothing of the model stands between.
-    std::optional<Eigen::Vector3d> stand_in_world;
-  };
-  std::optional<Missing> missing;
+  std::optional<MissingCoverage> missing;
 };
 
 struct Coverage {

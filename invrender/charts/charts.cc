@@ -238,7 +238,7 @@ void ChartTexels::FillAlong(const Outline::Side& side, int face) {
 }
 
 Eigen::Vector2d ChartTexels::PointAt(int x, int y) const {
-  const Eigen::Vector2d centre(x + 0.5, y + 0.5);
+  Eigen::Vector2d centre(x + 0.5, y + 0.5);
   if (IsCentreInside(x, y)) return centre;
   const int face = FaceAt(x, y);
   Eigen::Vector2d best = centre;

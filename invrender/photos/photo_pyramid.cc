@@ -26,7 +26,7 @@ Raster<Code> Halve(const Raster<Code>& full) {
   Raster<Code> half(std::max(1, full.width / 2), std::max(1, full.height / 2), 3);
   const float* radiance = RadianceOfCodes<Code>();
   const Srgb8Encoder encode8;
-  const auto encode = [&encode8](float mean) {  // of codes, so from 0 to 1
+  const auto encode = [&](float mean) {  // of codes, so from 0 to 1
     if constexpr (sizeof(Code) == 1) {
       return encode8.InRange(mean);
     } else {

@@ -83,9 +83,11 @@ class PatchLayer {
     const int num_rows = static_cast<int>(view.camera.height_px / step_px);
     std::vector<PatchPlace> cells(static_cast<size_t>(num_rows) * options_.grid_columns);
     tbb::parallel_for(size_t{0}, cells.size(), [&](size_t cell) {
-      const auto row = static_cast<double>(cell / options_.grid_columns);
-      const auto column = static_cast<double>(cell % options_.grid_columns);
-      cells[cell] = PlaceAt(view, {(column + 0.5) * step_px, (row + 0.5) * step_px});
+      const size_t row = cell / options_.grid_columns;
+      const size_t column = cell % options_.grid_columns;
+      cells[cell] = PlaceAt(view,
+                            {(static_cast<double>(column) + 0.5) * step_px,
+                             (static_cast<double>(row) + 0.5) * step_px});
     });
     std::erase_if(cells, [](const PatchPlace& place) { return place.viewers.size() < 2; });
     return cells;
