@@ -64,7 +64,7 @@ Image8 FindIgnored(const BakePhotograph& photograph, int index, const PhotoConte
   }
   if (photograph.mask_file) {
     Image8 mask = ReadIgnoreMask(*photograph.mask_file,
-                                       {photograph.camera.width_px, photograph.camera.height_px});
+                                 {photograph.camera.width_px, photograph.camera.height_px});
     if (ignored.Empty()) return mask;
     for (size_t i = 0; i < mask.values.size(); ++i) ignored.values[i] |= mask.values[i];
   }
