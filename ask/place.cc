@@ -5,6 +5,7 @@
 #include "register/register.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
+#include "scene/frames.h"
 #include "scene/model_sigma.h"
 #include "scene/text.h"
 
@@ -167,6 +168,15 @@ Place PlaceOnModel(const Survey& survey,
                    int index,
                    const PickOptions& options) {
   options.Check();
+  constexpr double kFarthestInModels = 1e4;
+  const Box bounds = ComputeBounds(survey.model);
+  if (!((point_in_world - bounds.Center()).norm() <= kFarthestInModels * bounds.Diagonal())) {
+    const Eigen::Vector3d middle = SiteFromWorld(bounds.Center());
+    throw Error("the point is more than " + FormatNumber(kFarthestInModels) +
+                " times the model's size away from it; expected the model's own numbers, about " +
+                FormatNumber(std::round(middle.x())) + "," + FormatNumber(std::round(middle.y())) +
+                "," + FormatNumber(std::round(middle.z())));
+  }
   Place place;
   place.point_in_world = point_in_world;
   FindFaces(survey.model, OnFaceTolerance(survey.model, options), place);

@@ -65,7 +65,8 @@ Place PlaceInPhotograph(const Survey& survey,
                         const PickOptions& options = {});
 
 // A point that was written down, with the faces that it lies on. Its deviation is the model's sigma
-// along each axis if it lies on the model, else none.
+// along each axis if it lies on the model, else none. Throws Error where it is so far from the
+// model that it cannot be meant.
 Place PlaceOnModel(const Survey& survey,
                    const Eigen::Vector3d& point_in_world,
                    int index,

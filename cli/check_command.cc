@@ -123,6 +123,8 @@ int RunCheck(const CheckArguments& arguments) {
              stdout);
   if (!report.overlays.empty() && !arguments.common.json) {
     std::printf("%zu overlays in %s\n", report.overlays.size(), arguments.output.c_str());
+  } else if (!arguments.output.empty() && !arguments.common.dry_run && !arguments.common.json) {
+    std::printf("no overlays: no photograph can be drawn\n");
   }
   return report.check.faults.empty() ? kExitDone : kExitWrongInput;
 }

@@ -5,6 +5,7 @@
 #include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/frames.h"
+#include "scene/text.h"
 
 #include <algorithm>
 #include <array>
@@ -325,9 +326,12 @@ DrawingGrid MakeGrid(const Drawing& drawing, double pixel_size) {
   const auto count = [&](double length) { return std::ceil(length / pixel_size - 1e-6); };
   const double width = count(drawing.UEnd() - drawing.UStart());
   const double height = count(drawing.v_end - drawing.v_start);
-  if (!(width >= 1 && height >= 1 && width < 2147483647.0 && height < 2147483647.0)) {
-    throw Error("drawing " + drawing.name + ": it would have " + std::to_string(width) + " x " +
-                std::to_string(height) + " pixels; choose another scale or resolution");
+  // More takes days, and no program opens it; a 100 m street at 1:20 and 300 dpi has 1e9.
+  constexpr double kMostPixels = 2e10;
+  if (!(width >= 1 && height >= 1 && width < 2147483647.0 && height < 2147483647.0 &&
+        width * height <= kMostPixels)) {
+    throw Error("drawing " + drawing.name + ": it would have " + FormatNumber(width) + " x " +
+                FormatNumber(height) + " pixels; choose another scale or resolution");
   }
   return {static_cast<int>(width), static_cast<int>(height), pixel_size};
 }

@@ -3,6 +3,7 @@
 #include "scene/text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -95,6 +96,28 @@ std::optional<long long> ParseInteger(std::string_view word) {
   return value;
 }
 
+namespace {
+
+// 5O and 3l, as they are typed for 50 and 31; empty if there is no such letter beside digits.
+std::string WithDigitsForLetters(std::string_view word) {
+  std::string digits(word);
+  std::replace(digits.begin(), digits.end(), 'O', '0');
+  std::replace(digits.begin(), digits.end(), 'o', '0');
+  std::replace(digits.begin(), digits.end(), 'l', '1');
+  std::replace(digits.begin(), digits.end(), 'I', '1');
+  const bool has_digit = word.find_first_of("0123456789") != std::string_view::npos;
+  return has_digit && digits != word ? digits : "";
+}
+
+// What follows a number as its unit: letters, a degree sign, the marks for feet and inches.
+bool IsUnitSign(std::string_view word) {
+  constexpr std::array<std::string_view, 5> kSigns = {"\u00B0", "'", "\"", "\u2032", "\u2033"};
+  if (std::isalpha(static_cast<unsigned char>(word[0])) != 0) return word[0] != 'x';
+  return std::find(kSigns.begin(), kSigns.end(), word) != kSigns.end();
+}
+
+}  // namespace
+
 std::string WhyNoNumber(std::string_view word) {
   if (ParseNumber(word)) return Quote(word) + " is not a finite number";
   const std::string fault = Quote(word) + " is not a number";
@@ -109,9 +132,20 @@ std::string WhyNoNumber(std::string_view word) {
     const std::string with_minus = "-" + std::string(word.substr(dash.size()));
     if (ParseNumber(with_minus)) return fault + ", for its minus is a dash; write " + with_minus;
   }
+  if (const std::string digits = WithDigitsForLetters(word); ParseNumber(digits)) {
+    return fault + "; is it " + digits + ", with a letter in place of a digit?";
+  }
+  const size_t middle = word.find_first_of(":/");
+  if (middle != std::string_view::npos) {
+    const std::optional<double> above = ParseNumber(word.substr(0, middle));
+    const std::optional<double> below = ParseNumber(word.substr(middle + 1));
+    if (above && below && *below != 0 && std::isfinite(*above / *below)) {
+      return fault + "; write " + FormatNumber(std::round(1e4 * *above / *below) / 1e4);
+    }
+  }
   const size_t end = word.find_first_not_of("+-.0123456789");
   if (end != std::string_view::npos && end > 0 && ParseNumber(word.substr(0, end)) &&
-      std::isalpha(static_cast<unsigned char>(word[end])) != 0 && word[end] != 'x') {
+      IsUnitSign(word.substr(end))) {
     return fault + "; write " + std::string(word.substr(0, end)) + " alone, without " +
            Quote(word.substr(end));
   }

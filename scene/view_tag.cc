@@ -3,6 +3,7 @@
 #include "scene/view_tag.h"
 
 #include "scene/frames.h"
+#include "scene/text.h"
 
 #include <cassert>
 #include <cmath>
@@ -166,16 +167,73 @@ ViewTag TagFromCamera(const Camera& camera, double lookat_distance) {
   return tag;
 }
 
+namespace {
+
+// Beyond these a number was not meant: the earth's girth in millimetres, a panorama, a small part
+// of a picture, a lens that would bring the frame's corner this many frames out.
+constexpr double kLargestCoordinate = 5e10;
+constexpr double kLargestAspect = 1e6;
+constexpr double kLargestShift = 100;
+constexpr double kLargestDistortion = 1e9;
+constexpr double kLargestLengthSigma = 1e7;
+
+std::optional<TagFault> FindDistortionFault(const ViewTag& tag) {
+  for (const TagKey key : {TagKey::kK1, TagKey::kK2, TagKey::kK3, TagKey::kP1, TagKey::kP2}) {
+    if (std::abs(GetTagValue(tag, key)) <= kLargestDistortion) continue;
+    return TagFault{std::string(kTagKeyNames[static_cast<size_t>(key)]),
+                    "no lens has a distortion of " + FormatNumber(GetTagValue(tag, key)) +
+                        "; leave it out if it is not known"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string FindSigmaFault(const SigmaKey& key, double sigma) {
+  if (!(sigma > 0)) return "a standard deviation must be above 0";
+  double largest = kLargestLengthSigma;
+  if (key.member == &TagSigmas::roll_deg || key.member == &TagSigmas::view_angle_deg) largest = 360;
+  if (key.member == &TagSigmas::aspect || key.member == &TagSigmas::shift ||
+      key.member == &TagSigmas::k1) {
+    largest = kLargestShift;
+  }
+  if (sigma <= largest) return "";
+  return "a standard deviation of " + FormatNumber(sigma) + " says nothing; expected " +
+         FormatNumber(largest) + " or less, or leave it out";
+}
+
 std::optional<TagFault> FindTagFault(const ViewTag& tag) {
   for (int index = 0; index < kNumTagKeys; ++index) {
     if (!std::isfinite(GetTagValue(tag, static_cast<TagKey>(index)))) {
       return TagFault{std::string(kTagKeyNames[index]), "must be a finite number"};
     }
   }
+  for (const TagKey key :
+       {TagKey::kX, TagKey::kY, TagKey::kZ, TagKey::kI, TagKey::kJ, TagKey::kK}) {
+    if (std::abs(GetTagValue(tag, key)) > kLargestCoordinate) {
+      return TagFault{std::string(kTagKeyNames[static_cast<size_t>(key)]),
+                      "no place on earth has a coordinate of " +
+                          FormatNumber(GetTagValue(tag, key)) + "; is there a digit too many?"};
+    }
+  }
   if (!(tag.view_angle_deg > 0 && tag.view_angle_deg < 180)) {
     return TagFault{"v", "view angle must lie between 0 and 180 degrees"};
   }
   if (!(tag.aspect > 0)) return TagFault{"a", "aspect (width / height) must be above 0"};
+  if (tag.aspect > kLargestAspect || tag.aspect < 1 / kLargestAspect) {
+    return TagFault{"a",
+                    "aspect is width / height of the frame, 1.5 for a slide; no frame has this"};
+  }
+  if (std::abs(tag.roll_deg) > 360) {
+    return TagFault{"roll", "expected degrees, from -360 to 360"};
+  }
+  for (const TagKey key : {TagKey::kShiftX, TagKey::kShiftY}) {
+    if (std::abs(GetTagValue(tag, key)) > kLargestShift) {
+      return TagFault{std::string(kTagKeyNames[static_cast<size_t>(key)]),
+                      "expected a share of the frame's width, 0.02 for a fiftieth"};
+    }
+  }
+  if (std::optional<TagFault> fault = FindDistortionFault(tag)) return fault;
   const Eigen::Vector3d axis = tag.lookat_in_site - tag.position_in_site;
   const double distance = axis.norm();
   if (!(distance > 0)) {

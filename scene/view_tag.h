@@ -127,4 +127,7 @@ struct TagFault {
 };
 std::optional<TagFault> FindTagFault(const ViewTag& tag);
 
+// Why a number cannot be this standard deviation; empty if it can.
+std::string FindSigmaFault(const SigmaKey& key, double sigma);
+
 }  // namespace groundglass

@@ -118,11 +118,23 @@ Visibility::~Visibility() = default;
 Visibility::Visibility(Visibility&&) noexcept = default;
 Visibility& Visibility::operator=(Visibility&&) noexcept = default;
 
+namespace {
+
+// Beyond this single precision overflows within Embree, which then ends the program.
+constexpr double kFarthest = 1e12;
+
+bool IsTraceable(const Eigen::Vector3d& local, const Eigen::Vector3d& direction) {
+  return local.cwiseAbs().maxCoeff() < kFarthest && direction.allFinite();
+}
+
+}  // namespace
+
 std::optional<Visibility::Hit> Visibility::FirstHit(const Eigen::Vector3d& origin_in_world,
                                                     const Eigen::Vector3d& direction_in_world,
                                                     double min_distance,
                                                     double max_distance) const {
   const Eigen::Vector3d local = origin_in_world - impl_->bounds.Center();
+  if (!IsTraceable(local, direction_in_world)) return std::nullopt;
   RTCRayHit query;
   query.ray.org_x = static_cast<float>(local.x());
   query.ray.org_y = static_cast<float>(local.y());
@@ -156,6 +168,7 @@ bool Visibility::IsClear(const Eigen::Vector3d& from_in_world,
   if (distance <= tolerance) return true;
   const Eigen::Vector3d direction = to_target / distance;
   const Eigen::Vector3d local = from_in_world - impl_->bounds.Center();
+  if (!IsTraceable(local, direction)) return false;
   RTCRay ray;
   ray.org_x = static_cast<float>(local.x());
   ray.org_y = static_cast<float>(local.y());

@@ -80,6 +80,7 @@ std::vector<Advice> FindOddities(const Scene& scene,
     AdviseOnTags(context, doubts);
   }
   AdviseOnFrames(context);
+  if (with_pictures) AdviseOnDoubles(context);
   if (!fits.empty()) AdviseOnPictures(context, fits);
   return found;
 }

@@ -75,5 +75,7 @@ void AdviseOnTags(const AdviceContext& context, const std::vector<TagDoubt>& dou
 // Shape and turn of the pictures against their tags.
 bool SuitsPicture(const Photograph& photograph);
 void AdviseOnFrames(const AdviceContext& context);
+// Pictures that are there twice, and tags that were copied; it reads pictures.
+void AdviseOnDoubles(const AdviceContext& context);
 
 }  // namespace groundglass

@@ -190,8 +190,9 @@ Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* jud
   for (const Reading& reading : OtherDatums(context, photographs)) readings.push_back(reading);
   for (const Reading& reading : LeftHandedAxes(context)) readings.push_back(reading);
   std::optional<Choice> choice = FindBest(context, photographs, as_read, readings, judge);
-  // Another size suits tags by chance where the model is one wall: the pictures know better.
-  if (choice && judge && IsScaled(choice->best.model) &&
+  // Another size suits tags by chance where the model is one wall, and another sign where look-at
+  // points lie within the building: the pictures know better.
+  if (choice && judge &&
       PictureJudge::IsClearlyBetter(
           judge->Fit(context.scene.model),
           judge->Fit(ReadOtherwise(context.scene.model, choice->best.model), choice->best.retag))) {

@@ -111,6 +111,14 @@ class ViewPairReader {
       next_ += 2;
       return std::nullopt;
     }
+    if ((pair.value.text == "=" || pair.value.text == ":") && next_ + 1 < tokens_.size()) {
+      Fail(pair.value.line,
+           "key " + Quote(key.text) + ": " + Quote(pair.value.text) + " is not needed; write " +
+               std::string(key.text) + " " + std::string(tokens_[next_ + 1].text));
+      reading_.pairs.push_back(pair);
+      next_ += 2;
+      return std::nullopt;
+    }
     ++next_;
     if (const KeyValue* first = FindPair(reading_.pairs, key.text)) {
       Fail(key.line,
@@ -137,10 +145,14 @@ class ViewPairReader {
     const std::optional<double> value = ParseNumber(word);
     if (!value || !std::isfinite(*value)) {
       Fail(pair.value.line, key_name + ": " + WhyNoNumber(word));
-    } else if (FindSigmaKey(pair.key.text) != nullptr && !(*value > 0)) {
-      Fail(pair.value.line, key_name + ": a standard deviation must be above 0");
-    } else {
+      return;
+    }
+    const SigmaKey* sigma = FindSigmaKey(pair.key.text);
+    const std::string fault = sigma == nullptr ? "" : FindSigmaFault(*sigma, *value);
+    if (fault.empty()) {
       StoreValue(pair, *value, reading_.tag);
+    } else {
+      Fail(pair.value.line, key_name + ": " + fault);
     }
   }
 
@@ -151,6 +163,13 @@ class ViewPairReader {
   }
 
   void RequireKeys() {
+    if (tokens_.empty()) {
+      reading_.faults.push_back(
+          Error(name_,
+                "this view file is empty; expected x, y, z, i, j, k, a and v, each with its value")
+              .what());
+      return;
+    }
     for (int index = 0; index < kNumRequiredKeys; ++index) {
       if (FindPair(reading_.pairs, kTagKeyNames[index]) == nullptr) {
         reading_.faults.push_back(

@@ -154,6 +154,12 @@ TEST(Place, ACornerLiesOnAllItsFacesAndAPointInTheAirOnNone) {
   EXPECT_NEAR(beside.distance_off_model, 5, 1e-12);
 }
 
+TEST(Place, APointThatIsNowhereNearTheModelIsRefused) {
+  const Survey survey = MakeWallSurvey();
+  const std::string message = ThrownMessage([&] { PlaceOnModel(survey, {1e300, 0, 4}, 0); });
+  EXPECT_THAT(message, HasSubstr("expected the model's own numbers, about "));
+}
+
 TEST(Place, APixelThatShowsNothingSaysSo) {
   const Survey survey = MakeWallSurvey();
   const Visibility visibility(survey.model);

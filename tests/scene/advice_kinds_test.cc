@@ -222,5 +222,30 @@ TEST(FindOddities, TheRasterOfAModelWhoseFacesItSpoiled) {
                                 HasSubstr("the faults of its faces come of it"))));
 }
 
+TEST(FindOddities, ThePicturesAreRightWhereLookAtPointsLieWithinTheBuilding) {
+  // Without any one of them too few tags speak for the model as it is, by their look-at points
+  // alone.
+  for (size_t left_out = 0; left_out < Hall().photographs.size(); left_out += 4) {
+    Scene scene = Hall();
+    scene.photographs.erase(scene.photographs.begin() + static_cast<std::ptrdiff_t>(left_out));
+    EXPECT_THAT(Told(scene, true), IsEmpty()) << left_out;
+  }
+}
+
+TEST(FindOddities, APhotographThatIsThereTwice) {
+  Scene scene = Hall();
+  scene.photographs.push_back(scene.photographs[0]);
+  scene.photographs.back().name = "twin";
+  EXPECT_THAT(Told(scene, true), ElementsAre(HasSubstr("this is the very same picture as")));
+}
+
+TEST(FindOddities, ATagThatWasCopiedFromAnother) {
+  Scene scene = Hall();
+  scene.photographs[4].tag = scene.photographs[1].tag;
+  EXPECT_THAT(Told(scene, true),
+              testing::Contains(AllOf(HasSubstr("has the position and look-at point of"),
+                                      HasSubstr("one of the two was copied"))));
+}
+
 }  // namespace
 }  // namespace groundglass

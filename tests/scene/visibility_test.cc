@@ -31,6 +31,14 @@ TEST(Visibility, TheFirstFaceAlongARayAndItsDistance) {
   EXPECT_FALSE(visibility.FirstHit({0.3, -5, 1}, {0, -1, 0}));
 }
 
+TEST(Visibility, NothingIsSeenFromBeyondSinglePrecision) {
+  const Visibility visibility(TwoWalls());
+  for (const double far : {1e15, 1e38, 1e200}) {
+    EXPECT_FALSE(visibility.FirstHit({far, -5, 1}, {0, 1, 0}));
+    EXPECT_FALSE(visibility.IsClear({far, -5, 1}, {0, 0, 1}, 1e-3));
+  }
+}
+
 TEST(Visibility, LeavesAllCoresToTheRestOfTheProgram) {
   const auto num_threads = [] {
     return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);

@@ -83,7 +83,7 @@ TEST(ReadScene, OnePhotographThatCannotBeReadIsSetApart) {
         Case{"images/s2.jpg", "<html>not found</html>", "images/s2.jpg: "},
         Case{"images/s2.png", "second of this name", "two images have the stem 's2'"},
         Case{"views/s2.view", "x 1", "views/s2.view: key 'y' is missing"},
-        Case{"views/s2.view", "", "views/s2.view: key 'x' is missing"},
+        Case{"views/s2.view", "", "views/s2.view: this view file is empty"},
         Case{"masks/s2.png", "no mask", "masks/s2.png: "},
         Case{"faces/s2.png", "", "faces/s2.png: "}}) {
     const SceneFolder folder;

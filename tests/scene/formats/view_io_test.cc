@@ -82,7 +82,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "shift_y k1 k2 k3 p1 p2 sigma_... camera"},
         BadView{"x 3", "views/s5.view:12: key 'x' is repeated; it stands on line 4 already"},
         BadView{"=x 1 y 2 z 3 i 4 j 5 k 6 a 1.5", "views/s5.view: key 'v' is missing"},
-        BadView{"=", "views/s5.view: key 'x' is missing"},
+        BadView{"=",
+                "views/s5.view: this view file is empty; expected x, y, z, i, j, k, a and v, each "
+                "with its value"},
         BadView{"roll 2,5",
                 "views/s5.view:12: key 'roll': '2,5' is not a number; write 2.5, with a point"},
         BadView{"roll \u22122.5",
@@ -98,6 +100,31 @@ INSTANTIATE_TEST_SUITE_P(
         BadView{"roll=2",
                 "views/s5.view:12: unknown key 'roll=2'; write 'roll', a blank and its value"},
         BadView{"# from the 2nd x", "views/s5.view:12: unknown key '#'; a comment begins with %"},
+        BadView{"roll 5O",
+                "views/s5.view:12: key 'roll': '5O' is not a number; is it 50, with a letter in "
+                "place of a digit?"},
+        BadView{"roll 3:2", "views/s5.view:12: key 'roll': '3:2' is not a number; write 1.5"},
+        BadView{"roll 2\u00B0",
+                "views/s5.view:12: key 'roll': '2\u00B0' is not a number; write 2 alone, without "
+                "'\u00B0'"},
+        BadView{"roll = 2", "views/s5.view:12: key 'roll': '=' is not needed; write roll 2"},
+        BadView{"roll 1e38", "views/s5.view:12: key 'roll': expected degrees, from -360 to 360"},
+        BadView{"k1 1e38",
+                "views/s5.view:12: key 'k1': no lens has a distortion of 1e+38; leave it out if it "
+                "is not known"},
+        BadView{
+            "shift_x 1e38",
+            "views/s5.view:12: key 'shift_x': expected a share of the frame's width, 0.02 for a "
+            "fiftieth"},
+        BadView{"sigma_position 1e38",
+                "views/s5.view:12: key 'sigma_position': a standard deviation of 1e+38 says "
+                "nothing; expected 10000000 or less, or leave it out"},
+        BadView{"sigma_roll 1e38",
+                "views/s5.view:12: key 'sigma_roll': a standard deviation of 1e+38 says nothing; "
+                "expected 360 or less, or leave it out"},
+        BadView{"=x 1e15 y 2 z 3\ni 4 j 5 k 6 a 1.5\nv 50",
+                "views/s5.view:1: key 'x': no place on earth has a coordinate of 1e+15; is there a "
+                "digit too many?"},
         BadView{"roll two", "views/s5.view:12: key 'roll': 'two' is not a number"},
         BadView{"roll 0x10", "views/s5.view:12: key 'roll': '0x10' is not a number"},
         BadView{"roll nan", "views/s5.view:12: key 'roll': 'nan' is not a finite number"},
