@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/elevation_arguments.h"
 #include "cli/model_arguments.h"
+#include "cli/montage_arguments.h"
 #include "cli/option_range.h"
 #include "invrender/tiles1988/tiles.h"
 #include "scene/error.h"
@@ -66,6 +67,7 @@ struct RenderArguments {
   FilmOptions film;
   OrbitOptions orbit;
   ElevationArguments elevation;
+  MontageArguments montage;
 };
 
 // What is drawn of a folder is what a run left in it.
@@ -254,6 +256,13 @@ int RunRender(const RenderArguments& arguments) {
   arguments.render.Check();
   arguments.film.Check();
   arguments.orbit.Check();
+  if (arguments.montage.IsAsked()) {
+    return RenderMontage(arguments.montage,
+                         arguments.common,
+                         arguments.model,
+                         arguments.model_arguments.Options(),
+                         arguments.out);
+  }
   if (IsTileRecord(arguments.model) || !FindTileFiles(arguments.model).empty()) {
     return RenderTiles(arguments);
   }
@@ -277,8 +286,8 @@ int RunRender(const RenderArguments& arguments) {
 void AddRenderCommand(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<RenderArguments>();
   arguments->render.supersampling = 2;
-  CLI::App* command =
-      app.add_subcommand("render", "Draw a model: stills from views, overlays, films, elevations");
+  CLI::App* command = app.add_subcommand(
+      "render", "Draw a model: stills from views, overlays, films, elevations, montages");
   command
       ->add_option("model",
                    arguments->model,
@@ -318,16 +327,19 @@ void AddRenderCommand(CLI::App& app, int& exit_status) {
   command->add_option("--orbit-height", arguments->orbit.height_deg, "degrees above the model")
       ->capture_default_str();
   AddElevationOptions(command, arguments->elevation);
+  AddMontageOptions(command, arguments->montage);
   AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);
   AddExample(
       command,
       "groundglass render hall-out --view from-the-roof.view -o roof.png\n"
       "  groundglass render hall-out --path orbit -o around.mp4\n"
-      "  groundglass render hall-out --elevation all --scale 1:50 -o hall.tif --also pdf,dxf");
+      "  groundglass render hall-out --elevation all --scale 1:50 -o hall.tif --also pdf,dxf\n"
+      "  groundglass render hall-out --over s5.jpg --model new-wing.obj -o montage.jpg");
   command->callback([arguments, view, path, &exit_status] {
-    if (view->count() + path->count() == 0 && !arguments->elevation.IsAsked()) {
-      throw CLI::RequiredError("--view, --path, --elevation, --section or --developed");
+    if (view->count() + path->count() == 0 && !arguments->elevation.IsAsked() &&
+        !arguments->montage.IsAsked()) {
+      throw CLI::RequiredError("--view, --path, --elevation, --section, --developed or --over");
     }
     arguments->render.mode = kModes.at(arguments->mode);
     arguments->render.background = kBackgrounds.at(arguments->background);

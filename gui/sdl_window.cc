@@ -77,6 +77,9 @@ SdlWindow::SdlWindow(const std::string& title, int width_px, int height_px) {
   SDL_StopTextInput();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
+  // DrawImGui heeds it; without it the frusta of hundreds of photographs are too many for ImGui,
+  // which counts corners in 16 bits, and it ends the program.
+  ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   ImGui_ImplSDL2_InitForSDLRenderer(window_);
   SetTextScale(1);
 }

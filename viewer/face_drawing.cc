@@ -13,11 +13,19 @@ namespace groundglass {
 namespace {
 
 // How faces are coloured, and what kFaceFragmentShader calls it.
-enum Colouring { kTexturedFaces, kTexturedAlongSight, kPlainFaces, kShadedFaces, kNumberedFaces };
-constexpr std::array<const char*, 5> kColourings = {
-    "TEXTURED", "TEXTURED_ALONG_SIGHT", "PLAIN", "SHADED", "NUMBERED"};
+enum Colouring {
+  kTexturedFaces,
+  kTexturedAlongSight,
+  kPlainFaces,
+  kShadedFaces,
+  kNumberedFaces,
+  kHidingFaces
+};
+constexpr std::array<const char*, 6> kColourings = {
+    "TEXTURED", "TEXTURED_ALONG_SIGHT", "PLAIN", "SHADED", "NUMBERED", "HIDING"};
 
 Colouring ChooseColouring(const RenderOptions& options, const RenderBatch& batch) {
+  if (batch.page == kHidingPage) return kHidingFaces;
   if (options.mode == DrawMode::kShaded) return kShadedFaces;
   if (options.mode == DrawMode::kLabels) return kNumberedFaces;
   if (batch.page < 0) return kPlainFaces;

@@ -34,7 +34,7 @@ class FaceDrawing {
 
  private:
   const GlFunctions& gl_;
-  std::array<GlProgram, 5> face_programs_;  // by Colouring
+  std::array<GlProgram, 6> face_programs_;  // by Colouring
   GlProgram label_program_;
 };
 

@@ -22,6 +22,10 @@ enum class DrawMode {
   kLabels,     // each face in a colour of its own, with its number from 1
 };
 
+// FaceTexture::page of a face that is not drawn, from either side, and hides what is behind it: the
+// picture there is as if nothing were in front of the background.
+constexpr int kHidingPage = -2;
+
 enum class Background {
   kWhite,
   kSky,          // a gradient from the horizon up; greyish below it

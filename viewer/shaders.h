@@ -81,7 +81,11 @@ vec3 FrontColour() {
 }
 #endif
 
+#if defined(HIDING)
+void main() { colour = vec4(0.0); }
+#else
 void main() { colour = vec4(gl_FrontFacing ? FrontColour() : vec3(0.30), 1.0); }
+#endif
 )";
 
 constexpr char kLabelFragmentShader[] = R"(#version 330 core

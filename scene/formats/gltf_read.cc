@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "scene/colour_page.h"
 #include "scene/error.h"
 #include "scene/formats/gltf_accessor.h"
 #include "scene/formats/gltf_extensions.h"
@@ -7,11 +8,14 @@
 #include "scene/formats/gltf_parse.h"
 #include "scene/formats/gltf_shapes.h"
 #include "scene/formats/gltf_textures.h"
+#include "scene/formats/material_library.h"
 #include "scene/formats/mesh_io.h"
 #include "scene/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace groundglass {
@@ -24,19 +28,24 @@ Eigen::Vector3d WorldFromGltf(const Eigen::Vector3d& point) {
 
 // Our faces were parted by page; puts them back in the order of the model that they were written
 // from. own_order: the place there of each.
-void RestoreOrder(const std::vector<int>& own_order, TexturedModel& textured) {
+void RestoreOrder(const std::vector<int>& own_order,
+                  TexturedModel& textured,
+                  std::vector<int>& materials_of_faces) {
   std::vector<size_t> order(textured.faces.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(
       order.begin(), order.end(), [&](size_t a, size_t b) { return own_order[a] < own_order[b]; });
   std::vector<Face> faces;
   std::vector<FaceTexture> textures;
+  std::vector<int> materials;
   for (const size_t i : order) {
+    materials.push_back(materials_of_faces[i]);
     faces.push_back(std::move(textured.model.faces[i]));
     textures.push_back(std::move(textured.faces[i]));
   }
   textured.model.faces = std::move(faces);
   textured.faces = std::move(textures);
+  materials_of_faces = std::move(materials);
 }
 
 class GltfReader {
@@ -44,7 +53,7 @@ class GltfReader {
   GltfReader(const std::filesystem::path& file, std::optional<LengthUnit> unit)
       : file_(file), unit_(unit) {}
 
-  MeshReading Read(bool with_pages) {
+  MeshReading Read(MeshPages pages) {
     gltf_ = ParseGltf(file_);
     CheckGltfExtensions(gltf_, file_, reading_.warnings);
     origin_ = GltfOrigin(gltf_, file_);
@@ -56,13 +65,14 @@ class GltfReader {
     for (const int node : At(gltf_.scenes, scene_index, "scene").nodes) {
       AppendNode(node, Eigen::Matrix4d::Identity(), 0);
     }
-    RestoreOrder(own_order_, result_);
-    if (with_pages) {
+    RestoreOrder(own_order_, result_, materials_);
+    if (pages != MeshPages::kNone) {
       TellUnreadTextures();
       DecodeGltfPages(gltf_, file_, result_, reading_.warnings);
     } else {
       for (FaceTexture& face : result_.faces) face = FaceTexture();
     }
+    if (pages == MeshPages::kPicturesAndColours) LayColours();
     JoinIdenticalPoints(result_.model);
     return std::move(reading_);
   }
@@ -113,6 +123,7 @@ class GltfReader {
     Vertices vertices;
     vertices.first = static_cast<int>(result_.model.points_in_world.size());
     vertices.count = AppendPoints(ReadAccessor(position->second, 3), transform);
+    vertices.material = primitive.material;
     vertices.texture = TextureImage(primitive.material);
     vertices.uv = ReadTexturePoints(primitive, vertices);
     // A mirroring transform turns every triangle over.
@@ -138,6 +149,7 @@ class GltfReader {
   struct Vertices {
     int first = 0;  // of the model's points
     size_t count = 0;
+    int material = -1;
     int texture = -1;
     std::vector<double> uv;  // two numbers for each; empty without texture
   };
@@ -198,6 +210,7 @@ class GltfReader {
     model.faces.push_back(std::move(face));
     result_.faces.push_back(std::move(face_texture));
     own_order_.push_back(place);
+    materials_.push_back(vertices.material);
   }
 
   // The image of a material's base colour; -1 for none.
@@ -207,6 +220,30 @@ class GltfReader {
         At(gltf_.materials, material, "material").pbrMetallicRoughness.baseColorTexture.index;
     if (index < 0) return -1;
     return FindTextureImage(At(gltf_.textures, index, "texture"), unread_textures_);
+  }
+
+  // Nothing for the grey with which our own files mark faces that no photograph shows.
+  std::optional<std::array<float, 3>> BaseColour(int material) const {
+    if (material < 0) return std::nullopt;
+    const tinygltf::Material& found = At(gltf_.materials, material, "material");
+    const std::vector<double>& factor = found.pbrMetallicRoughness.baseColorFactor;
+    if (found.name == kNoPhotographMaterial || factor.size() < 3) return std::nullopt;
+    std::array<float, 3> linear = {};
+    for (size_t c = 0; c < linear.size(); ++c) linear[c] = static_cast<float>(factor[c]);
+    return linear;
+  }
+
+  // Faces without a picture get their material's colour; after the pictures.
+  void LayColours() {
+    const int page = static_cast<int>(result_.pages.size());
+    ColourPage colours;
+    for (size_t i = 0; i < result_.faces.size(); ++i) {
+      if (result_.faces[i].page >= 0) continue;
+      if (const auto linear = BaseColour(materials_[i])) {
+        result_.faces[i] = colours.Add(*linear, page, result_.model.faces[i].points.size());
+      }
+    }
+    if (!colours.IsEmpty()) result_.pages.push_back(colours.Page());
   }
 
   void TellUnreadTextures() {
@@ -225,6 +262,7 @@ class GltfReader {
   TexturedModel& result_ = reading_.textured;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  // CESIUM_RTC
   std::set<std::string> unread_textures_;
+  std::vector<int> materials_;  // of each face; -1: none
   std::vector<int> own_order_;  // of each face in the model it was written from; -1 unknown
 };
 
@@ -232,8 +270,8 @@ class GltfReader {
 
 MeshReading ReadGltf(const std::filesystem::path& file,
                      std::optional<LengthUnit> unit,
-                     bool with_pages) {
-  return GltfReader(file, unit).Read(with_pages);
+                     MeshPages pages) {
+  return GltfReader(file, unit).Read(pages);
 }
 
 }  // namespace groundglass

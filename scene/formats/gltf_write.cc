@@ -4,6 +4,7 @@
 #include "scene/face_outline.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/gltf_notes.h"
+#include "scene/formats/material_library.h"
 #include "scene/formats/own_tiny_gltf.h"
 #include "scene/formats/textured_model_io.h"
 
@@ -107,7 +108,7 @@ class GlbWriter {
     }
     if (!textured_.pages.empty()) gltf_.extensionsUsed.push_back("KHR_materials_unlit");
     tinygltf::Material grey;
-    grey.name = "no_photograph";
+    grey.name = kNoPhotographMaterial;
     grey.pbrMetallicRoughness.baseColorFactor = {0.5, 0.5, 0.5, 1};
     grey.pbrMetallicRoughness.metallicFactor = 0;
     grey.doubleSided = true;

@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "scene/formats/continued_lines.h"
 #include "scene/formats/view_io.h"
+#include "scene/srgb.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -97,9 +98,25 @@ void ReadPicture(std::string_view text, ObjMaterial& material) {
   material.picture = std::string(text);
 }
 
+// "0.8 0.2 0.1" in sRGB as linear light; one number is a grey. Nothing for spectra and faults.
+std::optional<std::array<float, 3>> ReadColour(std::string_view text) {
+  std::array<float, 3> colour = {};
+  size_t count = 0;
+  for (const TextLine& line : SplitLines(text, '\0')) {
+    for (const TextToken& token : line.tokens) {
+      const auto number = ParseNumber(token.text);
+      if (!number || count == colour.size()) return std::nullopt;
+      colour[count++] = LinearFromSrgb(static_cast<float>(*number));
+    }
+  }
+  if (count == 1) colour[1] = colour[2] = colour[0];
+  return count == 1 || count == colour.size() ? std::optional(colour) : std::nullopt;
+}
+
 void ReadLibrary(const fs::path& library, std::map<std::string, ObjMaterial>& materials) {
   const std::string text = ReadTextFile(library);
   ObjMaterial* material = nullptr;
+  bool is_mark = false;
   for (ContinuedLines lines(text); lines.Next();) {
     const std::string keyword = LowerCase(lines.keyword());
     if (keyword == "newmtl") {
@@ -107,8 +124,11 @@ void ReadLibrary(const fs::path& library, std::map<std::string, ObjMaterial>& ma
       const auto [place, is_new] = materials.try_emplace(std::string(lines.rest()));
       material = is_new ? &place->second : nullptr;
       place->second.folder = library.parent_path();
+      is_mark = lines.rest() == kNoPhotographMaterial;
     } else if (keyword == "map_kd" && material != nullptr) {
       ReadPicture(lines.rest(), *material);
+    } else if (keyword == "kd" && material != nullptr && !is_mark) {
+      material->colour = ReadColour(lines.rest());
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -12,10 +13,16 @@
 
 namespace groundglass {
 
+// What our files call the grey of faces that no photograph shows: a mark, and no colour.
+inline constexpr const char* kNoPhotographMaterial = "no_photograph";
+
 // What a material of an OBJ file's library shows.
 struct ObjMaterial {
   std::string picture;           // as written; empty if it has none
   std::filesystem::path folder;  // of the library
+  // Its colour (`Kd`), linear light. The format does not say what the numbers are: they are taken
+  // as sRGB, which is what most programs write that have a person choose a colour.
+  std::optional<std::array<float, 3>> colour;
   // Texture points are scaled, then moved (`-s` and `-o`).
   Eigen::Vector2d scale = Eigen::Vector2d::Ones();
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();

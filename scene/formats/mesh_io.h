@@ -31,16 +31,19 @@ struct MeshReading {
 MeshReading ReadPly(const std::filesystem::path& file);
 MeshReading ReadStl(const std::filesystem::path& file);
 
-// Pictures are read only if `with_pages`; one that is missing or damaged is a warning, and its
-// faces are grey.
-MeshReading ReadTexturedObj(const std::filesystem::path& file, bool with_pages);
+enum class MeshPages {
+  kNone,
+  kPictures,            // one that is missing or damaged is a warning, and its faces are grey
+  kPicturesAndColours,  // plain colours of materials on a page too (coloured_model_io.h)
+};
+MeshReading ReadTexturedObj(const std::filesystem::path& file, MeshPages pages);
 
 // glTF or GLB in `world`. Lengths are metres in the file; they come in `unit` if it is given, else
 // in the unit that a file of ours names, else in metres. Triangles stay triangles, but a file of
 // ours gives its polygons back.
 MeshReading ReadGltf(const std::filesystem::path& file,
                      std::optional<LengthUnit> unit,
-                     bool with_pages);
+                     MeshPages pages);
 
 // Points at exactly the same place become one.
 void JoinIdenticalPoints(PolygonModel& model);

@@ -3,6 +3,7 @@
 #include "scene/formats/model_io.h"
 
 #include "scene/error.h"
+#include "scene/formats/coloured_model_io.h"
 #include "scene/formats/mesh_io.h"
 #include "scene/formats/obj_io.h"
 #include "scene/frames.h"
@@ -30,7 +31,7 @@ void SetUnit(const ModelOptions& options, PolygonModel& model) {
 MeshReading ReadMesh(const std::filesystem::path& file,
                      const std::string& extension,
                      const ModelOptions& options,
-                     bool with_pages) {
+                     MeshPages pages) {
   const bool is_gltf = extension == ".glb" || extension == ".gltf";
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw Error(file, "no such model file");
@@ -46,8 +47,8 @@ MeshReading ReadMesh(const std::filesystem::path& file,
                 "this model file is empty; copy it again from where it came from, or export it "
                 "once more");
   }
-  if (is_gltf) return ReadGltf(file, options.unit, with_pages);
-  if (extension == ".obj") return ReadTexturedObj(file, with_pages);
+  if (is_gltf) return ReadGltf(file, options.unit, pages);
+  if (extension == ".obj") return ReadTexturedObj(file, pages);
   return extension == ".ply" ? ReadPly(file) : ReadStl(file);
 }
 
@@ -82,9 +83,11 @@ void ApplyModelOptions(const std::filesystem::path& file,
   if (options.sigma) model.sigma = options.sigma;
 }
 
-TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
-                                       const ModelOptions& options,
-                                       bool with_pages) {
+namespace {
+
+TexturedModelReading ReadAnyModel(const std::filesystem::path& file,
+                                  const ModelOptions& options,
+                                  MeshPages pages) {
   const std::string extension = LowerCase(file.extension().string());
   TexturedModelReading result;
   PolygonModel& model = result.textured.model;
@@ -95,7 +98,7 @@ TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
     result.warnings = std::move(osu.warnings);
     result.left_out = std::move(osu.left_out);
   } else {
-    MeshReading mesh = ReadMesh(file, extension, options, with_pages);
+    MeshReading mesh = ReadMesh(file, extension, options, pages);
     result.textured = std::move(mesh.textured);
     result.warnings = std::move(mesh.warnings);
     MendedFaces mended = MendFaces(file, mesh.face_lines, model, textures);
@@ -118,6 +121,19 @@ TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
     }
   }
   return result;
+}
+
+}  // namespace
+
+TexturedModelReading ReadTexturedModel(const std::filesystem::path& file,
+                                       const ModelOptions& options,
+                                       bool with_pages) {
+  return ReadAnyModel(file, options, with_pages ? MeshPages::kPictures : MeshPages::kNone);
+}
+
+TexturedModelReading ReadColouredModel(const std::filesystem::path& file,
+                                       const ModelOptions& options) {
+  return ReadAnyModel(file, options, MeshPages::kPicturesAndColours);
 }
 
 ModelReading ReadModel(const std::filesystem::path& file, const ModelOptions& options) {

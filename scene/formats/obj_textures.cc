@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "scene/colour_page.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/material_library.h"
@@ -49,6 +50,20 @@ class ObjTexturer {
       }
     }
     Tell();
+  }
+
+  // Faces without a picture get their material's colour; after Texture.
+  void Colour() {
+    const int page = static_cast<int>(reading_.textured.pages.size());
+    ColourPage colours;
+    for (size_t i = 0; i < obj_.materials.size(); ++i) {
+      FaceTexture& face = reading_.textured.faces[i];
+      const auto material = materials_.find(obj_.materials[i]);
+      if (face.page >= 0 || material == materials_.end() || !material->second.colour) continue;
+      face = colours.Add(
+          *material->second.colour, page, reading_.textured.model.faces[i].points.size());
+    }
+    if (!colours.IsEmpty()) reading_.textured.pages.push_back(colours.Page());
   }
 
  private:
@@ -102,7 +117,7 @@ class ObjTexturer {
 
 }  // namespace
 
-MeshReading ReadTexturedObj(const std::filesystem::path& file, bool with_pages) {
+MeshReading ReadTexturedObj(const std::filesystem::path& file, MeshPages pages) {
   ObjReading obj = ReadObj(file);
   MeshReading reading;
   reading.textured.model = std::move(obj.model);
@@ -110,7 +125,10 @@ MeshReading ReadTexturedObj(const std::filesystem::path& file, bool with_pages) 
   reading.left_out = std::move(obj.left_out);
   reading.warnings = std::move(obj.warnings);
   reading.textured.faces.resize(reading.textured.model.faces.size());
-  if (with_pages) ObjTexturer(file, obj, reading).Texture();
+  if (pages == MeshPages::kNone) return reading;
+  ObjTexturer texturer(file, obj, reading);
+  texturer.Texture();
+  if (pages == MeshPages::kPicturesAndColours) texturer.Colour();
   return reading;
 }
 

@@ -4,6 +4,7 @@
 
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/material_library.h"
 #include "scene/formats/obj_io.h"
 #include "scene/text.h"
 
@@ -37,7 +38,7 @@ void WriteTexturedObj(const std::filesystem::path& file,
     materials += "\nnewmtl page_" + std::to_string(i) + "\nKa 1 1 1\nKd 1 1 1\nillum 0\nmap_Kd " +
                  picture + "\n";
   }
-  materials += "\nnewmtl no_photograph\nKd 0.5 0.5 0.5\nillum 1\n";
+  materials += std::string("\nnewmtl ") + kNoPhotographMaterial + "\nKd 0.5 0.5 0.5\nillum 1\n";
   std::filesystem::path library = file;
   library.replace_extension(".mtl");
   WriteFileAtomically(library, materials);
@@ -59,7 +60,7 @@ void WriteTexturedObj(const std::filesystem::path& file,
       text += "g " + ObjGroupName(group) + "\n";
     }
     const std::string face_material =
-        texture.page >= 0 ? "page_" + std::to_string(texture.page) : "no_photograph";
+        texture.page >= 0 ? "page_" + std::to_string(texture.page) : kNoPhotographMaterial;
     if (face_material != material) {
       material = face_material;
       text += "usemtl " + material + "\n";

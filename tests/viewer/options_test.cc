@@ -3,6 +3,7 @@
 #include "tests/support/spoilt_options.h"
 #include "viewer/camera_path.h"
 #include "viewer/film.h"
+#include "viewer/montage.h"
 #include "viewer/renderer.h"
 
 #include <gtest/gtest.h>
@@ -31,6 +32,42 @@ TEST(ViewerOptions, CheckNamesEachField) {
       {"view_angle_deg", [](auto& o) { o.view_angle_deg = 180; }},
       {"height_deg", [](auto& o) { o.height_deg = 90; }},
       {"first_bearing_deg", [](auto& o) { o.first_bearing_deg = kInfinity; }},
+  });
+  [[maybe_unused]] const auto& [fresh, near, stops, plain, finer, soft, grainy, light, of_photo] =
+      MontageOptions();
+  ExpectCheckNamesEach<MontageOptions>({
+      {"same_place_share", [](auto& o) { o.same_place_share = 0; }},
+      {"exposure_stops", [](auto& o) { o.exposure_stops = 11; }},
+      {"plain_albedo", [](auto& o) { o.plain_albedo = kNotANumber; }},
+      {"supersampling", [](auto& o) { o.supersampling = 0; }},
+      {"blur_px", [](auto& o) { o.blur_px = -1; }},
+      {"least_pixels", [](auto& o) { o.light.least_pixels = 0; }},
+      {"most_squares", [](auto& o) { o.photo_grain.most_squares = 0; }},
+  });
+  [[maybe_unused]] const auto& [l1, l2, l3, l4, l5, l6, l7, l8, l9, l10, l11] =
+      MontageLightOptions();
+  ExpectCheckNamesEach<MontageLightOptions>({
+      {"least_pixels", [](auto& o) { o.least_pixels = 0; }},
+      {"darkest_code", [](auto& o) { o.darkest_code = -1; }},
+      {"brightest_code", [](auto& o) { o.brightest_code = 256; }},
+      {"bright_share", [](auto& o) { o.bright_share = 2; }},
+      {"bright_albedo", [](auto& o) { o.bright_albedo = 0; }},
+      {"same_material", [](auto& o) { o.same_material = 0; }},
+      {"material_sigma", [](auto& o) { o.material_sigma = kInfinity; }},
+      {"face_sigma", [](auto& o) { o.face_sigma = 0; }},
+      {"expected_from_above", [](auto& o) { o.expected_from_above = 2; }},
+      {"direction_sigma", [](auto& o) { o.direction_sigma = 0; }},
+      {"least_share", [](auto& o) { o.least_share = 0; }},
+  });
+  [[maybe_unused]] const auto& [g1, g2, g3, g4, g5, g6, g7] = PhotoGrainOptions();
+  ExpectCheckNamesEach<PhotoGrainOptions>({
+      {"square_px", [](auto& o) { o.square_px = 7; }},
+      {"blur_px", [](auto& o) { o.blur_px = 0; }},
+      {"calm_share", [](auto& o) { o.calm_share = 0; }},
+      {"most_between_tones", [](auto& o) { o.most_between_tones = 0; }},
+      {"darkest_code", [](auto& o) { o.darkest_code = -1; }},
+      {"brightest_code", [](auto& o) { o.brightest_code = 256; }},
+      {"most_squares", [](auto& o) { o.most_squares = 0; }},
   });
   [[maybe_unused]] const auto& [rate, quality, ffmpeg] = FilmOptions();
   ExpectCheckNamesEach<FilmOptions>({
