@@ -118,7 +118,6 @@ AlignedPhotograph Align(const TagReading& reading,
     aligned.second_best_whitened = reading.prior.WhitenedAt(
         rival.reading->prior.ParametersAt(rival.solution->refinement.whitened));
   }
-  aligned.second_best_distance_px = rival.distance_px / size.scale;
   return aligned;
 }
 

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/refine_set.h"
 
+#include "register/best_elsewhere.h"
 #include "register/fill_registration.h"
 #include "register/keep_joint.h"
 #include "register/shared_conflict.h"
@@ -34,7 +35,7 @@ LensKey LensKeyOf(const Registration& registration) {
 struct PhotographSet {
   std::vector<PhotographAlignment*> alignments;
   std::vector<AlignedPhotograph> photographs;
-  std::vector<double> alone_nats;  // that spoke for the camera that each started with
+  std::vector<CameraAlone> alone;  // the camera that each started with
 
   bool Holds(const PhotographAlignment& alignment) const {
     return std::find(alignments.begin(), alignments.end(), &alignment) != alignments.end();
@@ -42,13 +43,13 @@ struct PhotographSet {
   void Add(PhotographAlignment& alignment, const AlignedPhotograph& photograph, double nats) {
     alignments.push_back(&alignment);
     photographs.push_back(photograph);
-    alone_nats.push_back(nats);
+    alone.push_back({photograph.whitened, nats});
   }
   void TakeOut(size_t i) {
     const auto at = static_cast<std::ptrdiff_t>(i);
     alignments.erase(alignments.begin() + at);
     photographs.erase(photographs.begin() + at);
-    alone_nats.erase(alone_nats.begin() + at);
+    alone.erase(alone.begin() + at);
   }
 };
 
@@ -217,9 +218,9 @@ bool TakeOutWorsened(const RegisterOptions& options,
   std::pair<bool, double> worst_rank;  // accepted by itself, and share kept
   for (size_t i = 0; i < set.photographs.size(); ++i) {
     const double kept_nats = NatsFor(set.photographs[i], options.solutions.score);
-    if (kept_nats >= options.tie_support.least_share_kept * set.alone_nats[i]) continue;
+    if (kept_nats >= options.tie_support.least_share_kept * set.alone[i].nats) continue;
     const std::pair rank(set.alignments[i]->registration.verdict == Verdict::kAccepted,
-                         kept_nats / std::max(1e-9, set.alone_nats[i]));
+                         kept_nats / std::max(1e-9, set.alone[i].nats));
     if (worst && rank >= worst_rank) continue;
     worst = i;
     worst_rank = rank;
@@ -231,30 +232,47 @@ bool TakeOutWorsened(const RegisterOptions& options,
 }
 
 // What edges and other photographs say for the camera that the set has found. It is scored as the
-// photograph's own solution was, by what that one saw; the second-best score stays, its own best.
+// photograph's own solution was, by what that one saw.
 Evidence EvidenceFor(const AlignedPhotograph& photograph,
+                     const BestElsewhere& elsewhere,
                      const TieSupport& support,
-                     const std::function<TieSupport()>& second_best_support,
+                     const std::function<TieSupport(const CameraParameters&)>& support_elsewhere,
                      const RegisterOptions& options) {
   Evidence evidence;
   evidence.score = ScoreFromSamples(photograph.score_samples,
                                     photograph.prior.ProjectionAt(photograph.whitened),
                                     options.solutions.score);
-  evidence.second_best_distance_px = photograph.second_best_distance_px;
-  if (photograph.second_best_nats) {
-    evidence.margin_nats = evidence.score.nats - 0.5 * photograph.whitened.squaredNorm() -
-                           *photograph.second_best_nats;
-    // Patches are compared through the second-best camera as well only where edges do not decide.
+  if (elsewhere.camera) {
+    evidence.margin_nats = elsewhere.lead_nats;
+    // Patches are compared through the other camera as well only where edges do not decide.
     if (options.use_ties && *evidence.margin_nats < LeastMargin(evidence.score, options.verdict)) {
-      *evidence.margin_nats += CountedLead(support, second_best_support(), options.tie_support);
+      *evidence.margin_nats +=
+          CountedLead(support, support_elsewhere(*elsewhere.camera), options.tie_support);
     }
   }
   evidence.tie_nats = CountedNats(support, options.tie_support);
   return evidence;
 }
 
+// Where edges do not tell a camera from another that is as near as cameras must be known, this is
+// no question of which but of how well: the claim covers both. The other one is as likely where it
+// has as much for it, and no longer counts where the lead is all that is asked for.
+void CoverBoth(const AlignedPhotograph& photograph,
+               const BestElsewhere& elsewhere,
+               const VerdictOptions& options,
+               Evidence& evidence,
+               JointSolution& solution) {
+  const double least_margin = LeastMargin(evidence.score, options);
+  if (!evidence.margin_nats || *evidence.margin_nats >= least_margin) return;
+  if (elsewhere.distance_px * 640 > options.max_vertex_sigma_px * photograph.prior.width_px) return;
+  evidence.claim_covers_both = true;
+  const double share = std::min(1.0, 0.5 * (1 - *evidence.margin_nats / least_margin));
+  const CameraParameters apart = *elsewhere.camera - solution.whitened;
+  solution.covariance += share * apart * apart.transpose();
+}
+
 void JudgeMember(size_t i,
-                 const JointSolution& solution,
+                 JointSolution solution,
                  const PhotographSet& set,
                  const std::vector<TieView>& views,
                  const EdgeModel& edge_model,
@@ -266,17 +284,25 @@ void JudgeMember(size_t i,
     support = SupportFor(photograph, views, i, edge_model, options);
     registration.ties = {support.num_tried, support.num_agreeing, support.nats};
   }
-  const auto second_best_support = [&] {
-    AlignedPhotograph second_best = photograph;
-    second_best.whitened = photograph.second_best_whitened;
-    return SupportFor(second_best, views, i, edge_model, options);
+  const auto support_elsewhere = [&](const CameraParameters& whitened) {
+    AlignedPhotograph elsewhere = photograph;
+    elsewhere.whitened = whitened;
+    return SupportFor(elsewhere, views, i, edge_model, options);
   };
   std::vector<Eigen::Vector3d> points_in_world;
   for (const CandidateSample& found : photograph.found) {
     points_in_world.push_back(found.sample.point_in_world);
   }
+  const BestElsewhere elsewhere = FindBestElsewhere(photograph,
+                                                    NatsFor(photograph, options.solutions.score),
+                                                    set.alone[i],
+                                                    points_in_world,
+                                                    options.solutions.distinct_distance_px);
+  Evidence evidence = EvidenceFor(photograph, elsewhere, support, support_elsewhere, options);
+  evidence.second_best_distance_px =
+      elsewhere.distance_px * registration.width_px / photograph.prior.width_px;
+  CoverBoth(photograph, elsewhere, options.verdict, evidence, solution);
   FillRegistration(solution, photograph.prior, edge_model.model, points_in_world, registration);
-  const Evidence evidence = EvidenceFor(photograph, support, second_best_support, options);
   RecordEvidence(evidence, registration);
   registration.verdict = Verdict::kAccepted;
   registration.reasons.clear();
@@ -290,6 +316,24 @@ void JudgeMember(size_t i,
   registration.undetermined =
       FindUndetermined(registration.sigmas, photograph.written, options.verdict);
   set.alignments[i]->conflict = FindConflictOf(photograph, edge_model, options);
+}
+
+// What each shares with others, beside what these share with one another.
+void JudgeTiesOfMembers(const VerdictOptions& options, const PhotographSet& set) {
+  int num_tried = 0;
+  int num_agreeing = 0;
+  for (const PhotographAlignment* alignment : set.alignments) {
+    if (!alignment->registration.ties) continue;
+    num_tried += alignment->registration.ties->num_tried;
+    num_agreeing += alignment->registration.ties->num_agreeing;
+  }
+  for (PhotographAlignment* alignment : set.alignments) {
+    if (!alignment->registration.ties) continue;
+    const Registration::Ties& own = *alignment->registration.ties;
+    const double others_share = static_cast<double>(num_agreeing - own.num_agreeing) /
+                                std::max(1, num_tried - own.num_tried);
+    ApplyJudgement(JudgeTies(own, others_share, options), alignment->registration);
+  }
 }
 
 }  // namespace
@@ -328,6 +372,7 @@ std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
   tbb::parallel_for(size_t{0}, set.photographs.size(), [&](size_t i) {
     JudgeMember(i, joint.photographs[i], set, views, edge_model, options);
   });
+  JudgeTiesOfMembers(options.verdict, set);
   return joint.displacements;
 }
 

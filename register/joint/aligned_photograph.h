@@ -23,13 +23,12 @@ struct AlignedPhotograph {
   CameraParameters whitened = CameraParameters::Zero();
   double noise_px = 1;  // spread of the matched residuals, within the bounds that are believed
   // For scoring the camera that comes out: where the samples are seen, and how much the best
-  // solution elsewhere scores in all, and how far away it lies; none: nothing.
+  // solution elsewhere scores in all; none: nothing.
   std::vector<ScoreSample> score_samples = {};
   std::vector<ScoreSample> conflict_samples = {};  // the same, for FindEdgeConflict
   int width_px = 0;                                // of the picture in which the samples are seen
   std::optional<double> second_best_nats = {};
   CameraParameters second_best_whitened = CameraParameters::Zero();
-  double second_best_distance_px = 0;  // of the photograph itself
   // How its tag was read (TagReading), and the prior from it as it was written.
   std::string slip = {};
   double log_probability = 0;

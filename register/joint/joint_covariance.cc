@@ -4,6 +4,7 @@
 
 #include "register/edges/edge_clusters.h"
 #include "register/edges/residual_spread.h"
+#include "register/joint/covariance_excess.h"
 #include "register/joint/normal_equations.h"
 #include "register/refine/systematic_error.h"
 
@@ -45,13 +46,14 @@ Eigen::MatrixXd SystematicModes(const NormalEquations& equations,
   return modes;
 }
 
-// Where edges of a cluster err together, what is left of them does not average out: how far the
-// solution would move without each cluster in each photograph (the jackknife by clusters, CR3: Bell
-// and McCaffrey, Survey Methodology 2002). What is left alone is too little where a cluster decides
-// much: the camera has followed it.
-Eigen::MatrixXd LeaveOutUpdates(const NormalEquations& equations,
-                                const JointState& state,
-                                const SolvedTogether& solved) {
+// The residuals of what errs together: edges of a cluster in one photograph; what it has in common
+// with others on one face, by what stands out from it and by what the light does there; an
+// AprilTag's corners.
+using Clusters = std::vector<std::vector<NormalEquations::Rows>>;
+
+Clusters FindClusters(const NormalEquations& equations,
+                      const JointState& state,
+                      const SolvedTogether& solved) {
   const std::vector<int> clusters =
       FindEdgeClusters(state.edge_model.model, state.edge_model.edges);
   std::map<std::pair<size_t, int>, std::vector<NormalEquations::Rows>> rows_of_cluster;
@@ -59,8 +61,6 @@ Eigen::MatrixXd LeaveOutUpdates(const NormalEquations& equations,
     rows_of_cluster[{state.runs[i].photograph, clusters[state.runs[i].edge]}].push_back(
         equations.RowsOfCosts().at(solved.edge_costs[i]));
   }
-  // What a photograph has in common with others on one face errs together too: by what stands out
-  // from it, and by what the light does there. So do an AprilTag's corners.
   const int num_clusters =
       clusters.empty() ? 0 : *std::max_element(clusters.begin(), clusters.end()) + 1;
   const int num_faces = static_cast<int>(state.edge_model.model.faces.size());
@@ -72,13 +72,28 @@ Eigen::MatrixXd LeaveOutUpdates(const NormalEquations& equations,
           equations.RowsOfCosts().at(solved.tie_costs[tie_cost++]));
     }
   }
-  std::vector<const std::vector<NormalEquations::Rows>*> left_out;
-  for (const auto& [cluster, rows] : rows_of_cluster) left_out.push_back(&rows);
-  Eigen::MatrixXd moves(equations.NumColumns(), static_cast<Eigen::Index>(left_out.size()));
-  tbb::parallel_for(size_t{0}, left_out.size(), [&](size_t i) {
-    moves.col(static_cast<Eigen::Index>(i)) = equations.LeaveOutUpdate(*left_out[i]);
+  Clusters rows;
+  for (auto& [cluster, of_cluster] : rows_of_cluster) rows.push_back(std::move(of_cluster));
+  return rows;
+}
+
+// What is left of a cluster does not average out: how far the solution would move without each (the
+// jackknife by clusters, CR3: Bell and McCaffrey, Survey Methodology 2002). What is left alone is
+// too little where a cluster decides much: the camera has followed it.
+Eigen::MatrixXd LeaveOutUpdates(const NormalEquations& equations, const Clusters& clusters) {
+  Eigen::MatrixXd moves(equations.NumColumns(), static_cast<Eigen::Index>(clusters.size()));
+  tbb::parallel_for(size_t{0}, clusters.size(), [&](size_t i) {
+    moves.col(static_cast<Eigen::Index>(i)) = equations.LeaveOutUpdate(clusters[i]);
   });
   return moves;
+}
+
+// What all clusters add to the normal equations.
+Eigen::SparseMatrix<double> InformationOf(const NormalEquations& equations,
+                                          const Clusters& clusters) {
+  std::vector<NormalEquations::Rows> rows;
+  for (const auto& cluster : clusters) rows.insert(rows.end(), cluster.begin(), cluster.end());
+  return equations.InformationOf(rows);
 }
 
 // How a photograph's matched samples scatter about the model's edges as the model has them.
@@ -105,7 +120,9 @@ JointRefinement SummariseTogether(JointState& state, SolvedTogether& solved) {
   const NormalEquations equations(*solved.problem, BlocksOf(state, *solved.problem));
   const Eigen::MatrixXd by_mode =
       equations.LinearResponse(SystematicModes(equations, state, solved).sparseView());
-  const Eigen::MatrixXd by_cluster = LeaveOutUpdates(equations, state, solved);
+  const Clusters clusters = FindClusters(equations, state, solved);
+  const Eigen::MatrixXd by_cluster = LeaveOutUpdates(equations, clusters);
+  const Eigen::SparseMatrix<double> information = InformationOf(equations, clusters);
 
   JointRefinement joint;
   constexpr int kNumParts = kNumCameraParameters + kNumLensParameters;
@@ -121,12 +138,18 @@ JointRefinement SummariseTogether(JointState& state, SolvedTogether& solved) {
           columns.middleRows<kNumLensParameters>(lens);
       return rows;
     };
-    Eigen::MatrixXd covariance(kNumParts, kNumParts);
-    covariance << rows_of_parts(equations.CovarianceColumns(own, kNumCameraParameters)),
-        rows_of_parts(equations.CovarianceColumns(lens, kNumLensParameters));
+    Eigen::MatrixXd columns(equations.NumColumns(), kNumParts);
+    columns << equations.CovarianceColumns(own, kNumCameraParameters),
+        equations.CovarianceColumns(lens, kNumLensParameters);
+    Eigen::MatrixXd covariance = rows_of_parts(columns);
     const Eigen::MatrixXd shared = rows_of_parts(by_mode);
     const Eigen::MatrixXd cluster = rows_of_parts(by_cluster);
-    covariance += shared * shared.transpose() + cluster * cluster.transpose();
+    // The normal equations count on residuals of the size that they are given already: the
+    // jackknife measures the same errors again, and adds what it finds beyond that.
+    covariance += shared * shared.transpose() +
+                  CovarianceExcess(cluster * cluster.transpose(),
+                                   columns.transpose() * (information * columns),
+                                   covariance);
 
     const Eigen::MatrixXd whole = moving.prior.whole_from_parts;
     joint.photographs.push_back({whole * parts,

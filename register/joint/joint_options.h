@@ -5,6 +5,7 @@
 #include "register/edges/aligned_sample.h"
 #include "register/edges/edge_matches.h"
 
+#include <numbers>
 #include <string>
 
 namespace groundglass {
@@ -24,13 +25,13 @@ struct JointOptions {
   // What is seen of an edge in one photograph only (light, blur, a joint on its sunny side). Long
   // tails here too: Student's t. The size of both parts is found in each scene, between the least
   // and the most: that of the own part from what is left of each edge, that of the shared one as
-  // the upper quartile of the displacements.
+  // the upper quartile of the displacements, for all modes that move an edge together.
   EdgeBias own = {0.4, 0.4, 1};
   double own_degrees_of_freedom = 3;
   double least_own_offset_sigmas = 0.002 / 0.03;
   double most_own_offset_sigmas = 0.05 / 0.03;
   double least_shared_offset_sigmas = 0.01 / 0.03;
-  double most_shared_offset_sigmas = 1;
+  double most_shared_offset_sigmas = std::numbers::sqrt3;
   // The part of a prior's variance that is the photograph's own; the rest is its lens', and the
   // same for all photographs of that lens. Slides have a scale, an aspect and a shift of their own.
   double own_k1_share = 0.001;

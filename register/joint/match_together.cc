@@ -4,6 +4,7 @@
 
 #include "register/edges/weighted_median.h"
 #include "register/joint/image_edge_error.h"
+#include "register/refine/systematic_error.h"
 #include "scene/quantile.h"
 
 #include <algorithm>
@@ -99,12 +100,15 @@ void EstimateSharedOffset(const JointOptions& options, JointState& state) {
     offsets_sigmas.push_back(edge.frame.Displacement(edge.displacement, 0).norm() /
                              state.edge_model.sigma);
   }
-  if (offsets_sigmas.empty()) return;
-  const size_t upper_quartile = offsets_sigmas.size() * 3 / 4;
-  state.own_bias.shared_offset_sigmas =
-      std::clamp(ValueOfRank(std::move(offsets_sigmas), upper_quartile),
-                 options.least_shared_offset_sigmas,
-                 options.most_shared_offset_sigmas);
+  double whole_sigmas = options.most_shared_offset_sigmas;
+  if (!offsets_sigmas.empty()) {
+    const size_t upper_quartile = offsets_sigmas.size() * 3 / 4;
+    whole_sigmas = std::clamp(ValueOfRank(std::move(offsets_sigmas), upper_quartile),
+                              options.least_shared_offset_sigmas,
+                              options.most_shared_offset_sigmas);
+  }
+  // An edge is displaced by all of its modes together, no further than edges are found to be.
+  state.own_bias.shared_offset_sigmas = whole_sigmas / std::sqrt(kNumModesOfAnEdge);
 }
 
 }  // namespace groundglass

@@ -62,14 +62,28 @@ Eigen::MatrixXd NormalEquations::LinearResponse(const Eigen::SparseMatrix<double
   return inverse_.solve(Eigen::MatrixXd(by_column));
 }
 
-Eigen::VectorXd NormalEquations::LeaveOutUpdate(const std::vector<Rows>& left_out) const {
+NormalEquations::RowMajorMatrix NormalEquations::JacobianOf(const std::vector<Rows>& rows) const {
   Eigen::Index num_rows = 0;
-  for (const Rows& rows : left_out) num_rows += rows.size;
+  for (const Rows& each : rows) num_rows += each.size;
   RowMajorMatrix theirs(num_rows, NumColumns());
-  Eigen::VectorXd residuals(num_rows);
+  Eigen::Index next = 0;
+  for (const Rows& each : rows) {
+    theirs.middleRows(next, each.size) = jacobian_.middleRows(each.first, each.size);
+    next += each.size;
+  }
+  return theirs;
+}
+
+Eigen::SparseMatrix<double> NormalEquations::InformationOf(const std::vector<Rows>& rows) const {
+  const Eigen::SparseMatrix<double> by_column = JacobianOf(rows);
+  return by_column.transpose() * by_column;
+}
+
+Eigen::VectorXd NormalEquations::LeaveOutUpdate(const std::vector<Rows>& left_out) const {
+  const RowMajorMatrix theirs = JacobianOf(left_out);
+  Eigen::VectorXd residuals(theirs.rows());
   Eigen::Index next = 0;
   for (const Rows& rows : left_out) {
-    theirs.middleRows(next, rows.size) = jacobian_.middleRows(rows.first, rows.size);
     residuals.segment(next, rows.size) = residuals_.segment(rows.first, rows.size);
     next += rows.size;
   }

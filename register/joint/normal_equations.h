@@ -32,11 +32,15 @@ class NormalEquations {
   // How far the solution would move without these residuals: the jackknife, to first order. What
   // is left must determine all parameters.
   Eigen::VectorXd LeaveOutUpdate(const std::vector<Rows>& left_out) const;
+  // What these residuals alone add to the normal equations: their part of the information.
+  Eigen::SparseMatrix<double> InformationOf(const std::vector<Rows>& rows) const;
   // The inverse normal equations' columns first to first + size - 1.
   Eigen::MatrixXd CovarianceColumns(Eigen::Index first, Eigen::Index size) const;
 
  private:
   using RowMajorMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  RowMajorMatrix JacobianOf(const std::vector<Rows>& rows) const;
 
   std::map<ceres::ResidualBlockId, Rows> rows_of_costs_;
   std::map<const double*, Eigen::Index> column_of_block_;

@@ -15,6 +15,9 @@ namespace groundglass {
 // middle, or sloping (down on the right, up on the left).
 // How each changes the whitened residuals of samples of ONE edge.
 constexpr int kNumSystematicModes = 6;
+// Each edge is moved by so many of them. What it may lie off in all, one sigma, is the root of
+// this times what it may in each.
+constexpr int kNumModesOfAnEdge = kNumSystematicModes / 2;
 Eigen::Matrix<double, Eigen::Dynamic, kNumSystematicModes> WhitenedSystematicModes(
     std::span<const AlignedSample> samples, int width_px, int height_px);
 

@@ -74,6 +74,8 @@ void VerdictOptions::Check(const std::string& path) const {
   CheckAbove(max_prior_sigmas, 0, path + "max_prior_sigmas");
   CheckAbove(max_prior_chi_squared, 0, path + "max_prior_chi_squared");
   CheckAbove(max_vertex_sigma_px, 0, path + "max_vertex_sigma_px");
+  CheckAbove(min_expected_ties, 0, path + "min_expected_ties");
+  CheckFromTo(min_share_of_expected_ties, 0, 1, path + "min_share_of_expected_ties");
   CheckAbove(max_control_point_sigmas, 0, path + "max_control_point_sigmas");
   CheckFromTo(undetermined_share, 0, 1, path + "undetermined_share");
 }
@@ -117,7 +119,8 @@ Judgement JudgeFit(const Evidence& evidence, const VerdictOptions& options) {
                     nats_per_observation),
         judgement);
   }
-  if (evidence.margin_nats && *evidence.margin_nats < LeastMargin(score, options)) {
+  if (evidence.margin_nats && *evidence.margin_nats < LeastMargin(score, options) &&
+      !evidence.claim_covers_both) {
     Add(Verdict::kReview,
         fmt::format("another camera {:.1f} px away fits almost as well (margin {:.0f} nats)",
                     evidence.second_best_distance_px,
@@ -194,6 +197,20 @@ Judgement JudgeDisagreement() {
   return {Verdict::kReview,
           {"its own edges and the other photographs do not agree on one camera; the one that its "
            "own edges say is given"}};
+}
+
+Judgement JudgeTies(const Registration::Ties& ties,
+                    double others_share,
+                    const VerdictOptions& options) {
+  const double expected = others_share * ties.num_tried;
+  if (expected < options.min_expected_ties) return {};
+  if (ties.num_agreeing >= options.min_share_of_expected_ties * expected) return {};
+  return {Verdict::kReview,
+          {fmt::format("other photographs do not confirm its camera: of {} places that they could "
+                       "share, {} agree, where {:.0f} should by what they share with one another",
+                       ties.num_tried,
+                       ties.num_agreeing,
+                       expected)}};
 }
 
 Judgement JudgeConflict(const EdgeConflict& conflict, int num_alike, int num_photographs) {

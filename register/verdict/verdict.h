@@ -37,6 +37,10 @@ struct VerdictOptions {
   double max_prior_chi_squared = 31.3;
   // Nor may the model's points be known worse than this, px at a width of 640.
   double max_vertex_sigma_px = 2;
+  // Where, by what the others share with one another, so many of a photograph's patches should be
+  // found where its camera puts them, at least this share of them must be.
+  double min_expected_ties = 8;
+  double min_share_of_expected_ties = 0.1;
   // No place that a person has recognised may lie further than this from where the camera sees it,
   // in the point's sigmas.
   double max_control_point_sigmas = 4;
@@ -63,6 +67,8 @@ struct Evidence {
   double second_best_distance_px = 0;  // of the photograph
   bool has_control_points = false;
   double tie_nats = 0;  // how much other photographs speak for it (TieSupport)
+  // The solution elsewhere is as near as cameras must be known, and what is claimed covers both.
+  bool claim_covers_both = false;
 };
 // How much better than the second-best camera one must be, nats.
 double LeastMargin(const AlignmentScore& score, const VerdictOptions& options);
@@ -92,6 +98,13 @@ Judgement JudgeTag(const CameraParameters& parameters,
 
 // Review where the other photographs pull a camera away from what its own edges say.
 Judgement JudgeDisagreement();
+
+// Review where a photograph should share places with others and shares none: its edges may all fit
+// lines beside those that are meant. others_share: of the places that the others seek in one
+// another, those that they find where their cameras put them.
+Judgement JudgeTies(const Registration::Ties& ties,
+                    double others_share,
+                    const VerdictOptions& options);
 
 // Review where two parts of the model's drawing do not agree on the camera. conflict: in pixels of
 // the photograph; num_alike, num_photographs: how many of how many have one.

@@ -350,6 +350,9 @@ TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
       {"verdict.max_prior_sigmas", [](auto& o) { o.verdict.max_prior_sigmas = 0; }},
       {"verdict.max_prior_chi_squared", [](auto& o) { o.verdict.max_prior_chi_squared = 0; }},
       {"verdict.max_vertex_sigma_px", [](auto& o) { o.verdict.max_vertex_sigma_px = 0; }},
+      {"verdict.min_expected_ties", [](auto& o) { o.verdict.min_expected_ties = 0; }},
+      {"verdict.min_share_of_expected_ties",
+       [](auto& o) { o.verdict.min_share_of_expected_ties = 1.1; }},
       {"s5: image_px",
        [](auto& o) {
          o.control_points = {{"s5", {kNotANumber, 1}, {1, 2, 3}}};

@@ -78,6 +78,20 @@ TEST(NormalEquations, MoveWithoutIsWhatSolvingWithoutGives) {
   EXPECT_NEAR(move[1], expected[1], 1e-5);
 }
 
+TEST(NormalEquations, TheInformationOfPartsAddsUpToTheirs) {
+  double x = 0, y = 0;
+  ceres::Problem problem;
+  const auto first = problem.AddResidualBlock(new Line(2, 0, 4), nullptr, &x, &y);
+  const auto second = problem.AddResidualBlock(new Line(1, 1, 3), nullptr, &x, &y);
+  const NormalEquations equations(problem, {&x, &y});
+  const auto& rows = equations.RowsOfCosts();
+  const Eigen::MatrixXd of_first = equations.InformationOf({rows.at(first)});
+  EXPECT_EQ(of_first, Eigen::MatrixXd(Eigen::Vector2d(4, 0).asDiagonal()));
+  const Eigen::MatrixXd of_both = equations.InformationOf({rows.at(first), rows.at(second)});
+  EXPECT_LT((of_both * equations.CovarianceColumns(0, 2) - Eigen::MatrixXd::Identity(2, 2)).norm(),
+            1e-12);
+}
+
 TEST(NormalEquations, RefuseWhatIsNotDetermined) {
   double x = 0, y = 0;
   ceres::Problem problem;

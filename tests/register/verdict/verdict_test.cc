@@ -27,6 +27,29 @@ TEST(JudgeFit, ASecondBestThatFitsAlmostAsWellIsReviewed) {
   EXPECT_EQ(JudgeFit({{400, 300}, 46, 7.5}, {}).verdict, Verdict::kAccepted);
 }
 
+TEST(JudgeFit, ASecondBestThatTheClaimCoversIsNone) {
+  Evidence evidence{{400, 300}, 30, 1.5};
+  evidence.claim_covers_both = true;
+  EXPECT_EQ(JudgeFit(evidence, {}).verdict, Verdict::kAccepted);
+}
+
+TEST(JudgeTies, APhotographThatSharesNothingWhereOthersDoIsReviewed) {
+  const Judgement judgement = JudgeTies({35, 0, -3.5}, 0.33, {});
+  EXPECT_EQ(judgement.verdict, Verdict::kReview);
+  EXPECT_THAT(judgement.reasons,
+              ElementsAre("other photographs do not confirm its camera: of 35 places that they "
+                          "could share, 0 agree, where 12 should by what they share with one "
+                          "another"));
+  EXPECT_EQ(JudgeTies({35, 2, 2}, 0.33, {}).verdict, Verdict::kAccepted);
+}
+
+// Where light or glass hide walls, or few places are sought, nothing follows.
+TEST(JudgeTies, LittleThatIsExpectedSaysNothing) {
+  EXPECT_EQ(JudgeTies({100, 0, -10}, 0.04, {}).verdict, Verdict::kAccepted);
+  EXPECT_EQ(JudgeTies({10, 0, -1}, 0.5, {}).verdict, Verdict::kAccepted);
+  EXPECT_EQ(JudgeTies({10, 0, -1}, 0.5, {.min_expected_ties = 4}).verdict, Verdict::kReview);
+}
+
 TEST(JudgeConflict, PartsOfTheModelThatDisagreeAreReviewed) {
   const Judgement judgement = JudgeConflict({false, 10.2, 86}, 4, 6);
   EXPECT_EQ(judgement.verdict, Verdict::kReview);

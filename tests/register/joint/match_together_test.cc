@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+#include "register/joint/match_together.h"
+
+#include "register/refine/systematic_error.h"
+#include "tests/register/house.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace groundglass {
+namespace {
+
+// Edges in the air that two photographs found so many of the model's sigmas away.
+double SharedOffsetWhereEdgesLieOff(double sigmas) {
+  const EdgeModel edge_model(MakeHouse());
+  const std::vector<AlignedPhotograph> photographs;
+  const std::vector<TiePoint> ties;
+  const JointOptions options;
+  JointState state(edge_model, photographs, {}, ties, options);
+  for (MovingEdge& edge : state.edges) {
+    edge.frame.across.col(0) = Eigen::Vector3d::UnitX() * edge_model.sigma;
+    edge.displacement[0] = sigmas;
+    edge.num_photographs = 2;
+  }
+  EstimateSharedOffset(options, state);
+  return state.own_bias.shared_offset_sigmas;
+}
+
+// All modes that move an edge, each as large as the samples' bias says, move it by what edges lie
+// off in all.
+TEST(EstimateSharedOffset, ModesTogetherMoveAnEdgeAsFarAsEdgesLieOff) {
+  AlignedSample sample;
+  sample.origin_px = {400, 100};
+  sample.precision = 1;
+  sample.shared_bias_px = SharedOffsetWhereEdgesLieOff(0.8);  // at a pixel for each sigma
+  EXPECT_NEAR(WhitenedSystematicModes({&sample, 1}, 600, 400).norm(), 0.8, 1e-9);
+}
+
+TEST(EstimateSharedOffset, StaysWithinTheOptions) {
+  const JointOptions options;
+  EXPECT_NEAR(SharedOffsetWhereEdgesLieOff(5),
+              options.most_shared_offset_sigmas / std::sqrt(kNumModesOfAnEdge),
+              1e-9);
+  EXPECT_NEAR(SharedOffsetWhereEdgesLieOff(0),
+              options.least_shared_offset_sigmas / std::sqrt(kNumModesOfAnEdge),
+              1e-9);
+}
+
+}  // namespace
+}  // namespace groundglass
