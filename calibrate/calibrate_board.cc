@@ -202,10 +202,16 @@ void CheckSizes(std::span<const BoardPhotograph> photographs) {
   }
 }
 
-std::vector<std::vector<AprilTagDetection>> DetectAll(
-    std::span<const BoardPhotograph> photographs) {
+// A board's AprilTags are about as large as one another in a photograph: where many are found at
+// low resolution, all are.
+std::vector<std::vector<AprilTagDetection>> DetectAll(std::span<const BoardPhotograph> photographs,
+                                                      const Board& board,
+                                                      const BoardOptions& options) {
+  const double enough = options.coarse_share * board.columns * board.rows;
   std::vector<std::vector<AprilTagDetection>> detections(photographs.size());
   tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
+    detections[i] = DetectAprilTags(photographs[i].srgb_grey, AprilTagDetail::kCoarse);
+    if (static_cast<double>(detections[i].size()) >= enough) return;
     detections[i] = DetectAprilTags(photographs[i].srgb_grey);
   });
   return detections;
@@ -280,7 +286,7 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
   const int width_px = photographs.front().srgb_grey.width;
   const int height_px = photographs.front().srgb_grey.height;
 
-  std::vector<std::vector<AprilTagDetection>> detections = DetectAll(photographs);
+  std::vector<std::vector<AprilTagDetection>> detections = DetectAll(photographs, given, options);
   const Board board = FindBoardLayout(given, detections);
   std::vector<BoardShot> shots = MeasureShots(photographs, board, detections, options);
 
