@@ -120,7 +120,7 @@ TEST(Board, ALargePictureOfItShowsTheSameAtLowResolution) {
   const std::vector<AprilTagDetection> fine = DetectAprilTags(large);
   const std::vector<AprilTagDetection> coarse = DetectAprilTags(large, AprilTagDetail::kCoarse);
   EXPECT_GE(fine.size(), 20u);  // the pictures' own limits: a tag or two slip through either
-  EXPECT_GE(coarse.size(), fine.size());
+  EXPECT_GE(coarse.size(), 20u);
   for (const AprilTagDetection& one : fine) {
     for (const AprilTagDetection& other : coarse) {
       if (other.id != one.id) continue;
