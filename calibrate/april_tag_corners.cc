@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,14 @@ constexpr double kProfileStepPx = 0.25;
 constexpr double kEndShare = 0.1;
 constexpr double kEndPx = 3;
 constexpr int kMinCrossings = 6;
+// Edges wider than this (one standard deviation of their blur, pixels), and those within so many
+// deviations of whose levels other cells begin, are measured where they are half as bright.
+constexpr double kSoftPx = 1.1;
+constexpr double kClearOfCells = 1.5;
+// Of so many places along an edge its blur is taken.
+constexpr int kBlurPlaces = 9;
+// The least contrast of an edge, of full scale, linear light.
+constexpr double kMinContrast = 0.02;
 // Crossings farther than this many spreads from the line are dirt or a finger.
 constexpr double kOutlierSpreads = 3.5;
 
@@ -90,12 +99,74 @@ std::optional<double> FindCrossing(const LinearPicture& grey,
   }
   black /= num_level;
   white /= num_level;
-  constexpr double kMinContrast = 0.02;  // of full scale, linear light
   if (white - black < kMinContrast) return std::nullopt;
   const double white_px = (area - 2 * reach_steps * black) / (white - black) * kProfileStepPx;
   const double crossing = reach_steps * kProfileStepPx - white_px;
   if (std::abs(crossing) > 0.8 * reach_px) return std::nullopt;
   return crossing;
+}
+
+// The light of an AprilTag's black: that of its darkest cells, into which blur brings the least of
+// their neighbours' light.
+std::optional<double> FindBlack(const LinearPicture& grey, const AprilTagDetection& tag) {
+  constexpr size_t kDarkest = 4;
+  const Eigen::Matrix<double, 2, 4>& corners = tag.corners_px;
+  const int cells = kAprilTagCells - 2 + 2 * tag.border_cells;
+  std::vector<double> values;
+  for (int row = 0; row < cells; ++row) {
+    for (int column = 0; column < cells; ++column) {
+      const double u = (column + 0.5) / cells;
+      const double v = (row + 0.5) / cells;
+      // Perspective within an AprilTag is slight: cells' middles are hit well enough.
+      const auto value = Sample(grey,
+                                (1 - v) * ((1 - u) * corners.col(0) + u * corners.col(1)) +
+                                    v * ((1 - u) * corners.col(3) + u * corners.col(2)));
+      if (!value) return std::nullopt;
+      values.push_back(*value);
+    }
+  }
+  std::nth_element(values.begin(), values.begin() + kDarkest - 1, values.end());
+  return std::accumulate(values.begin(), values.begin() + kDarkest, 0.0) / kDarkest;
+}
+
+// Where a profile across an edge is half as bright as between black and the white beside it. Blur
+// brings light there from no nearer than the border's other side.
+struct HalfCrossing {
+  double at_px = 0;    // outward
+  double blur_px = 0;  // one standard deviation, if it is normal
+};
+
+// black_px, white_px: how far inward and outward the border's and the gap's middles lie.
+std::optional<HalfCrossing> FindHalfCrossing(const LinearPicture& grey,
+                                             const Eigen::Vector2d& at_px,
+                                             const Eigen::Vector2d& outward,
+                                             double black,
+                                             double black_px,
+                                             double white_px) {
+  double white = 0;
+  constexpr int kWhiteSteps = 2;
+  for (int step = -kWhiteSteps; step <= kWhiteSteps; ++step) {
+    const auto value = Sample(grey, at_px + (white_px + step * kProfileStepPx) * outward);
+    if (!value) return std::nullopt;
+    white += *value / (2 * kWhiteSteps + 1);
+  }
+  if (white - black < kMinContrast) return std::nullopt;
+  const double half = 0.5 * (black + white);
+  std::optional<double> before;
+  for (double t = -black_px; t <= white_px; t += kProfileStepPx) {
+    const std::optional<double> value = Sample(grey, at_px + t * outward);
+    if (!value) return std::nullopt;
+    if (before && *before <= half && *value > half) {
+      const double crossing = t - kProfileStepPx * (*value - half) / (*value - *before);
+      const auto inside = Sample(grey, at_px + (crossing - 0.5) * outward);
+      const auto outside = Sample(grey, at_px + (crossing + 0.5) * outward);
+      if (!inside || !outside || !(*outside > *inside)) return std::nullopt;
+      // The slope of a normal edge at its middle is its contrast / (sigma sqrt(2 pi)).
+      return HalfCrossing{crossing, (white - black) / (*outside - *inside) / std::sqrt(2 * M_PI)};
+    }
+    before = value;
+  }
+  return std::nullopt;
 }
 
 // A line in undistorted pixels: points p with normal . p = offset. The deviations of its two ends
@@ -150,6 +221,93 @@ std::optional<EdgeLine> FitLine(std::vector<Eigen::Vector2d> points,
   }
 }
 
+// One edge of an AprilTag's black square as it is to be measured; pixels.
+struct EdgeToMeasure {
+  Eigen::Vector2d from, to, along, outward;
+  double length_px = 0;
+  double border_px = 0;  // how wide its black border and the white gap appear
+  double gap_px = 0;
+  double end_px = 0;  // left out at each end
+
+  double RoomPx() const { return std::min(border_px, gap_px); }
+  double ReachPx() const { return std::min(kMaxReachPx, 0.9 * RoomPx() - kLevelPx); }
+};
+
+EdgeToMeasure EdgeOf(const AprilTagDetection& tag, int number, double gap_share) {
+  EdgeToMeasure edge;
+  // Edges go round clockwise on the screen, so the white is on the left of the direction.
+  edge.from = tag.corners_px.col(number);
+  edge.to = tag.corners_px.col((number + 1) % 4);
+  edge.length_px = (edge.to - edge.from).norm();
+  edge.along = (edge.to - edge.from) / edge.length_px;
+  edge.outward = {edge.along.y(), -edge.along.x()};
+  // The AprilTag's depth across this edge says how wide its black border and the gap appear.
+  const Eigen::Vector2d opposite =
+      0.5 * (tag.corners_px.col((number + 2) % 4) + tag.corners_px.col((number + 3) % 4));
+  const double depth_px = -edge.outward.dot(opposite - 0.5 * (edge.from + edge.to));
+  edge.border_px = depth_px * tag.border_cells / (kAprilTagCells - 2.0 + 2 * tag.border_cells);
+  edge.gap_px = depth_px * gap_share;
+  edge.end_px = std::max(kEndPx, kEndShare * edge.length_px);
+  return edge;
+}
+
+// How an AprilTag's edges are to be measured.
+struct EdgeLook {
+  double blur_px = 0;           // one standard deviation
+  std::optional<double> black;  // if they are soft: where they are half as bright
+};
+
+EdgeLook FindLook(const LinearPicture& grey,
+                  const AprilTagDetection& tag,
+                  const std::array<EdgeToMeasure, 4>& edges) {
+  EdgeLook look;
+  const std::optional<double> black = FindBlack(grey, tag);
+  if (!black) return look;
+  std::vector<double> blurs;
+  double room_left_px = HUGE_VAL;
+  for (const EdgeToMeasure& edge : edges) {
+    room_left_px = std::min(room_left_px, edge.RoomPx() - edge.ReachPx() - kLevelPx);
+    for (int place = 0; place < kBlurPlaces; ++place) {
+      const double s =
+          edge.end_px + (edge.length_px - 2 * edge.end_px) * (place + 0.5) / kBlurPlaces;
+      const auto half = FindHalfCrossing(grey,
+                                         edge.from + s * edge.along,
+                                         edge.outward,
+                                         *black,
+                                         0.5 * edge.border_px,
+                                         0.5 * edge.gap_px);
+      if (half) blurs.push_back(half->blur_px);
+    }
+  }
+  if (blurs.size() < kBlurPlaces) return look;
+  look.blur_px = UpperMedian(std::move(blurs));
+  if (look.blur_px > kSoftPx || kClearOfCells * look.blur_px > room_left_px) look.black = black;
+  return look;
+}
+
+// Every crossing along an edge, in pixels of the photograph.
+std::vector<Eigen::Vector2d> FindCrossings(const LinearPicture& grey,
+                                           const EdgeToMeasure& edge,
+                                           const EdgeLook& look) {
+  std::vector<Eigen::Vector2d> crossings;
+  for (double s = edge.end_px; s <= edge.length_px - edge.end_px; s += 1) {
+    const Eigen::Vector2d on_edge = edge.from + s * edge.along;
+    std::optional<double> crossing;
+    if (!look.black) {
+      crossing = FindCrossing(grey, on_edge, edge.outward, edge.ReachPx());
+    } else if (const auto half = FindHalfCrossing(grey,
+                                                  on_edge,
+                                                  edge.outward,
+                                                  *look.black,
+                                                  0.5 * edge.border_px,
+                                                  0.5 * edge.gap_px)) {
+      crossing = half->at_px;
+    }
+    if (crossing) crossings.push_back(on_edge + *crossing * edge.outward);
+  }
+  return crossings;
+}
+
 std::optional<AprilTagCorners> MeasureCorners(const LinearPicture& grey,
                                               const AprilTagDetection& start,
                                               double gap_share,
@@ -159,41 +317,31 @@ std::optional<AprilTagCorners> MeasureCorners(const LinearPicture& grey,
     const Eigen::Vector3d ray = UnprojectToCam(lens, image_px);
     return {lens.focal_x_px * ray.x(), lens.focal_y_px * ray.y()};
   };
-  const double border_share = start.border_cells / (kAprilTagCells - 2.0 + 2 * start.border_cells);
+  std::array<EdgeToMeasure, 4> edges;
+  for (int number = 0; number < 4; ++number) {
+    EdgeToMeasure& edge = edges[static_cast<size_t>(number)];
+    edge = EdgeOf(start, number, gap_share);
+    if (edge.ReachPx() < kMinReachPx) return std::nullopt;
+  }
+  const EdgeLook look = FindLook(grey, start, edges);
   std::array<EdgeLine, 4> lines;
-  for (int edge = 0; edge < 4; ++edge) {
-    // Edges go round clockwise on the screen, so the white is on the left of the direction.
-    const Eigen::Vector2d from = start.corners_px.col(edge);
-    const Eigen::Vector2d to = start.corners_px.col((edge + 1) % 4);
-    const double length_px = (to - from).norm();
-    const Eigen::Vector2d along = (to - from) / length_px;
-    const Eigen::Vector2d outward(along.y(), -along.x());
-    // The AprilTag's depth across this edge says how wide its black border and the gap appear.
-    const Eigen::Vector2d opposite =
-        0.5 * (start.corners_px.col((edge + 2) % 4) + start.corners_px.col((edge + 3) % 4));
-    const double depth_px = -outward.dot(opposite - 0.5 * (from + to));
-    const double room_px = depth_px * std::min(border_share, gap_share);
-    const double reach_px = std::min(kMaxReachPx, 0.9 * room_px - kLevelPx);
-    if (reach_px < kMinReachPx) return std::nullopt;
-
-    const double end_px = std::max(kEndPx, kEndShare * length_px);
-    std::vector<Eigen::Vector2d> crossings;
-    for (double s = end_px; s <= length_px - end_px; s += 1) {
-      const Eigen::Vector2d on_edge = from + s * along;
-      if (const auto crossing = FindCrossing(grey, on_edge, outward, reach_px)) {
-        crossings.push_back(undistort(on_edge + *crossing * outward));
-      }
-    }
-    if (static_cast<double>(crossings.size()) < 0.5 * (length_px - 2 * end_px)) {
+  for (size_t number = 0; number < 4; ++number) {
+    const EdgeToMeasure& edge = edges[number];
+    std::vector<Eigen::Vector2d> crossings = FindCrossings(grey, edge, look);
+    if (static_cast<double>(crossings.size()) < 0.5 * (edge.length_px - 2 * edge.end_px)) {
       return std::nullopt;
     }
-    const auto line = FitLine(std::move(crossings), undistort(from), undistort(to));
+    for (Eigen::Vector2d& crossing : crossings) crossing = undistort(crossing);
+    const auto line = FitLine(std::move(crossings), undistort(edge.from), undistort(edge.to));
     if (!line) return std::nullopt;
-    lines[static_cast<size_t>(edge)] = *line;
+    lines[number] = *line;
+    // A crossing is known the worse the flatter its edge is.
+    lines[number].end_covariance *= std::pow(std::max(1.0, look.blur_px / kSoftPx), 2);
   }
 
   AprilTagCorners result;
   result.id = start.id;
+  result.blur_px = look.blur_px;
   // From the deviations of the lines' ends (start and end of edge 0, 1, 2, 3) to the corners'.
   Eigen::Matrix<double, 8, 8> corners_from_ends = Eigen::Matrix<double, 8, 8>::Zero();
   Eigen::Matrix<double, 8, 8> end_covariance = Eigen::Matrix<double, 8, 8>::Zero();

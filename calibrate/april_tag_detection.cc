@@ -23,6 +23,8 @@ namespace {
 
 // Detecting at half resolution costs little once edges are snapped, and a quarter of the time.
 constexpr int kFullDetailWidthPx = 1600;
+// The width at which large AprilTags are sought.
+constexpr int kCoarseWidthPx = 1000;
 // An AprilTag needs this much contrast between its cells (grey levels).
 constexpr float kMinDecisionMargin = 20;
 
@@ -43,8 +45,16 @@ FamilyPtr MakeFamily(int border_cells) {
   return family;
 }
 
+// The pixels of the picture for one of that in which quads are sought.
+float Decimation(int width_px, AprilTagDetail detail) {
+  const int fine = width_px > kFullDetailWidthPx ? 2 : 1;
+  return static_cast<float>(
+      detail == AprilTagDetail::kCoarse ? std::max(fine, width_px / kCoarseWidthPx) : fine);
+}
+
 // Calls on_found with each detection of the families.
 void Detect(const Image8& srgb_grey,
+            AprilTagDetail detail,
             const std::vector<apriltag_family_t*>& families,
             int corrected_bits,
             const std::function<void(const apriltag_detection_t&)>& on_found) {
@@ -52,7 +62,7 @@ void Detect(const Image8& srgb_grey,
   for (apriltag_family_t* family : families) {
     apriltag_detector_add_family_bits(detector.get(), family, corrected_bits);
   }
-  detector->quad_decimate = srgb_grey.width > kFullDetailWidthPx ? 2.0F : 1.0F;
+  detector->quad_decimate = Decimation(srgb_grey.width, detail);
   // The detector only reads the pixels, though its struct is not const.
   image_u8_t view{srgb_grey.width,
                   srgb_grey.height,
@@ -69,11 +79,11 @@ void Detect(const Image8& srgb_grey,
 
 }  // namespace
 
-std::vector<AprilTagDetection> DetectAprilTags(const Image8& srgb_grey) {
+std::vector<AprilTagDetection> DetectAprilTags(const Image8& srgb_grey, AprilTagDetail detail) {
   const FamilyPtr narrow = MakeFamily(1);
   const FamilyPtr wide = MakeFamily(2);
   std::map<int, std::vector<AprilTagDetection>> by_id;
-  Detect(srgb_grey, {narrow.get(), wide.get()}, 1, [&](const apriltag_detection_t& raw) {
+  Detect(srgb_grey, detail, {narrow.get(), wide.get()}, 1, [&](const apriltag_detection_t& raw) {
     AprilTagDetection detection;
     detection.id = raw.id;
     detection.border_cells = raw.family == wide.get() ? 2 : 1;
@@ -112,7 +122,7 @@ std::string DescribeOtherAprilTags(const Image8& srgb_grey) {
   std::vector<apriltag_family_t*> families;
   families.reserve(others.size());
   for (const OtherFamily& other : others) families.push_back(other.family.get());
-  Detect(srgb_grey, families, 0, [&](const apriltag_detection_t& raw) {
+  Detect(srgb_grey, AprilTagDetail::kFine, families, 0, [&](const apriltag_detection_t& raw) {
     for (OtherFamily& other : others) other.num_found += raw.family == other.family.get() ? 1 : 0;
   });
   const auto most = std::max_element(

@@ -39,6 +39,7 @@ void Board::Check() const {
 
 void BoardOptions::Check() const {
   CheckFromTo(min_april_tags, 1, kNumAprilTagIds, "board: min_april_tags");
+  CheckAtLeast(coarse_share, 0, "board: coarse_share");
   CheckAbove(max_rms_px, 0, "board: max_rms_px");
 }
 

@@ -54,6 +54,10 @@ struct BoardOptions {
   // A photograph takes part if it shows at least this many of the board's AprilTags.
   int min_april_tags = 4;
 
+  // A large photograph is looked at at full size only where fewer of the board's AprilTags than
+  // this share are found at low resolution.
+  double coarse_share = 0.4;
+
   // The corners must fit the board this well, else its description or its flatness is at fault.
   // Pixels.
   double max_rms_px = 2.0;

@@ -7,6 +7,7 @@
 #include "calibrate/board_layout.h"
 #include "calibrate/board_solve.h"
 #include "scene/error.h"
+#include "scene/quantile.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -26,6 +27,8 @@ constexpr int kMinPhotographs = 3;
 constexpr double kMaxStartMisfit = 0.1;
 // Sharp photographs of a flat board fit better than this (pixels).
 constexpr double kGoodRmsPx = 0.4;
+// Photographs in focus and held still are sharper than this (pixels).
+constexpr double kSharpPx = 2;
 
 // Measures every detected AprilTag of the board, its corners taken as straight in `lens`.
 std::vector<AprilTagCorners> MeasureShot(const Board& board,
@@ -133,9 +136,11 @@ std::vector<std::string> Remarks(const std::vector<BoardShot>& shots,
   const Eigen::Vector2d center_px(0.5 * width_px, 0.5 * height_px);
   double reach = 0;
   double tilt_rad = 0;
+  std::vector<double> blurs_px;
   for (const BoardShot& shot : shots) {
     tilt_rad = std::max(tilt_rad, std::acos(std::min(1.0, shot.cam_from_board.rotation(2, 2))));
     for (const AprilTagCorners& april_tag : shot.april_tags) {
+      blurs_px.push_back(april_tag.blur_px);
       for (int corner = 0; corner < 4; ++corner) {
         reach = std::max(reach, (april_tag.corners_px.segment<2>(2 * corner) - center_px).norm());
       }
@@ -147,6 +152,13 @@ std::vector<std::string> Remarks(const std::vector<BoardShot>& shots,
         fmt::format("the corners miss the board by {:.2f} px, where a flat and well measured "
                     "one is good to 0.1: measure the tag size and the gap again",
                     solution.rms_px));
+  }
+  const double blur_px = UpperMedian(std::move(blurs_px));
+  if (blur_px > kSharpPx) {
+    remarks.push_back(
+        fmt::format("the pictures are blurred: the board's edges spread by {:.1f} px (one standard "
+                    "deviation); sharper ones would tell the lens better",
+                    blur_px));
   }
   if (reach < 0.75) {
     remarks.push_back(
@@ -202,10 +214,16 @@ void CheckSizes(std::span<const BoardPhotograph> photographs) {
   }
 }
 
-std::vector<std::vector<AprilTagDetection>> DetectAll(
-    std::span<const BoardPhotograph> photographs) {
+// A board's AprilTags are about as large as one another in a photograph: where many are found at
+// low resolution, all are.
+std::vector<std::vector<AprilTagDetection>> DetectAll(std::span<const BoardPhotograph> photographs,
+                                                      const Board& board,
+                                                      const BoardOptions& options) {
+  const double enough = options.coarse_share * board.columns * board.rows;
   std::vector<std::vector<AprilTagDetection>> detections(photographs.size());
   tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
+    detections[i] = DetectAprilTags(photographs[i].srgb_grey, AprilTagDetail::kCoarse);
+    if (static_cast<double>(detections[i].size()) >= enough) return;
     detections[i] = DetectAprilTags(photographs[i].srgb_grey);
   });
   return detections;
@@ -280,7 +298,7 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
   const int width_px = photographs.front().srgb_grey.width;
   const int height_px = photographs.front().srgb_grey.height;
 
-  std::vector<std::vector<AprilTagDetection>> detections = DetectAll(photographs);
+  std::vector<std::vector<AprilTagDetection>> detections = DetectAll(photographs, given, options);
   const Board board = FindBoardLayout(given, detections);
   std::vector<BoardShot> shots = MeasureShots(photographs, board, detections, options);
 

@@ -322,11 +322,20 @@ void LinesOptions::Check() const {
   CheckAbove(worst_view_angle_share, 0, "lines options: worst_view_angle_share");
   CheckAtLeast(rival_share, 0, "lines options: rival_share");
   if (aspect) CheckFromTo(*aspect, 0.1, 10, "aspect");
+  CheckAtLeast(aspect_sigma, 0, "lines options: aspect_sigma");
+  CheckAbove(worst_aspect_share, 0, "lines options: worst_aspect_share");
 }
 
 LinesResult CalibrateLines(const Image8& srgb_grey, const LinesOptions& options, uint64_t seed) {
   options.Check();
   LinesResult none;
+  if (options.aspect && options.aspect_sigma > options.worst_aspect_share * *options.aspect) {
+    none.reason = fmt::format(
+        "the shape of its pixels is not known (width / height {:.2f} to {:.2f}); --aspect tells it",
+        *options.aspect - options.aspect_sigma,
+        *options.aspect + options.aspect_sigma);
+    return none;
+  }
   std::vector<LineSegment> segments =
       FindLineSegments(srgb_grey, options.shortest_share * srgb_grey.width);
   // As if the picture's pixels were square and as wide as they are.

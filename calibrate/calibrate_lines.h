@@ -34,6 +34,10 @@ struct LinesOptions {
   // Width / height of the whole picture, where its pixels are not square, as those of digitised
   // video are not.
   std::optional<double> aspect;
+  // Its standard deviation; lines do not find it out, and nothing is told if it is more than this
+  // share of the aspect.
+  double aspect_sigma = 0;
+  double worst_aspect_share = 0.02;
 
   void Check() const;  // throws Error naming the first field out of range
 };

@@ -282,6 +282,18 @@ void FindExtents(const FrameSides& sides, const FrameOptions& options, SlideFram
   }
 }
 
+// Width / height of the whole raster of a television camera's frame of this size.
+std::optional<double> CameraRasterAspect(int width_px, int height_px) {
+  const bool is_525 = height_px == 480 || height_px == 486;
+  const bool is_625 = height_px == 576;
+  if (width_px == 720 && is_525) return 4.0 / 3 * 720 / 710.85;
+  if (width_px == 704 && is_525) return 4.0 / 3 * 704 / 710.85;
+  if (width_px == 720 && is_625) return 4.0 / 3 * 720 / 702;
+  if (width_px == 704 && is_625) return 4.0 / 3 * 704 / 702;
+  if ((width_px == 640 && height_px == 480) || (width_px == 768 && is_625)) return 4.0 / 3;
+  return std::nullopt;
+}
+
 }  // namespace
 
 void FrameOptions::Check() const {
@@ -296,7 +308,8 @@ void FrameOptions::Check() const {
   CheckAtLeast(most_aspect, least_aspect, "frame options: most_aspect");
   CheckAbove(mount_play, 0, "frame options: mount_play");
   CheckAbove(least_aspect_sigma, 0, "frame options: least_aspect_sigma");
-  CheckAbove(video_aspect_sigma, 0, "frame options: video_aspect_sigma");
+  CheckAbove(video_aspect_share, 0, "frame options: video_aspect_share");
+  CheckAbove(slide_aspect, 0, "frame options: slide_aspect");
   CheckAtLeast(blur_px, 0, "frame options: blur_px");
   if (aspect) CheckFromTo(*aspect, 0.1, 10, "aspect");
 }
@@ -348,15 +361,17 @@ SlideFrame FindSlideFrame(const Image8& srgb_grey, const FrameOptions& options) 
   return frame;
 }
 
-std::optional<double> VideoAspect(int width_px, int height_px) {
-  const bool is_525 = height_px == 480 || height_px == 486;
-  const bool is_625 = height_px == 576;
-  if (width_px == 720 && is_525) return 4.0 / 3 * 720 / 710.85;
-  if (width_px == 704 && is_525) return 4.0 / 3 * 704 / 710.85;
-  if (width_px == 720 && is_625) return 4.0 / 3 * 720 / 702;
-  if (width_px == 704 && is_625) return 4.0 / 3 * 704 / 702;
-  if ((width_px == 640 && height_px == 480) || (width_px == 768 && is_625)) return 4.0 / 3;
-  return std::nullopt;
+std::optional<VideoAspect> FindVideoAspect(int width_px,
+                                           int height_px,
+                                           const FrameOptions& options) {
+  options.Check();
+  const std::optional<double> camera = CameraRasterAspect(width_px, height_px);
+  if (!camera) return std::nullopt;
+  if (options.aspect)
+    return VideoAspect{*options.aspect, options.video_aspect_share * *options.aspect};
+  const double slide = options.slide_aspect;
+  return VideoAspect{0.5 * (*camera + slide),
+                     std::hypot(0.5 * (slide - *camera), options.video_aspect_share * *camera)};
 }
 
 }  // namespace groundglass

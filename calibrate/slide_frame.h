@@ -33,11 +33,15 @@ struct FrameOptions {
   // width, and of the opening's aspect at best, a share; one standard deviation each.
   double mount_play = 0.008;
   double least_aspect_sigma = 0.002;
-  // The same of a television frame's aspect, whose raster cards differ in where a line begins.
-  double video_aspect_sigma = 0.005;
+  // The same of a television frame's aspect where its kind is known: cards differ in where a line
+  // begins.
+  double video_aspect_share = 0.005;
+  // Width / height of a slide that fills a television frame, squeezed.
+  double slide_aspect = 1.5;
   // The border's blur, which a crop's mask covers as well; pixels.
   double blur_px = 2;
-  // Of what is seen, where one side lies outside of the scan: it then tells the missing one.
+  // Of what is seen: where one side lies outside of the scan it tells the missing one, and it
+  // decides what a television frame holds.
   std::optional<double> aspect;
 
   void Check() const;  // throws Error naming the first field out of range
@@ -61,9 +65,20 @@ struct SlideFrame {
 // what lies on one; rounded corners and dark parts of the picture beside the border do not.
 SlideFrame FindSlideFrame(const Image8& srgb_grey, const FrameOptions& options = {});
 
-// Width / height of the whole raster of a digitised television frame of this size (ITU-R BT.601,
-// of which 4:3 take 710.85 of 720 pixels across 480 or 486 lines, 702 of 720 across 576; square
-// pixels for 640 x 480 and 768 x 576); nothing for other sizes.
-std::optional<double> VideoAspect(int width_px, int height_px);
+// Width / height of what a digitised television frame holds, with one standard deviation.
+struct VideoAspect {
+  double aspect = 0;
+  double sigma = 0;
+};
+
+// What a picture of a television frame's size holds; nothing for other sizes. No size tells a view
+// that a television camera took, of 4:3, from a slide of slide_aspect that was squeezed into the
+// frame: the mean of both, with half of what is between them as standard deviation, unless
+// options.aspect says it. A camera's 4:3 take 710.85 of 720 pixels across 480 or 486 lines, 702 of
+// 720 across 576 (ITU-R BT.601: 13.5 MHz; active lines of 52.66 and 52 us); 640 x 480 and 768 x 576
+// have square pixels.
+std::optional<VideoAspect> FindVideoAspect(int width_px,
+                                           int height_px,
+                                           const FrameOptions& options = {});
 
 }  // namespace groundglass

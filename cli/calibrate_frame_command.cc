@@ -77,10 +77,14 @@ KnownKeys KeysOfFrame(const SlideFrame& frame, const FrameOptions& options) {
   return keys;
 }
 
-KnownKeys KeysOfVideo(double aspect, const FrameOptions& options) {
+KnownKeys KeysOfVideo(const VideoAspect& video, bool is_given) {
   KnownKeys keys;
-  AddKnown(keys, "a", aspect, "a television frame's raster; a slide squeezed into it has its own");
-  AddKnown(keys, "sigma_a", options.video_aspect_sigma * aspect);
+  AddKnown(keys,
+           "a",
+           video.aspect,
+           is_given ? "--aspect, of a television frame"
+                    : "a television frame: a camera's 4:3, or a slide squeezed into it");
+  AddKnown(keys, "sigma_a", video.sigma);
   return keys;
 }
 
@@ -162,7 +166,7 @@ int RunCalibrateFrame(const FrameArguments& arguments) {
     std::string crop;
     try {
       const Image8 grey = ReadGrey8(scan.file);
-      const std::optional<double> video = VideoAspect(grey.width, grey.height);
+      const std::optional<VideoAspect> video = VideoAspectOf(scan.file, arguments.options);
       frame = FindSlideFrame(grey, arguments.options);
       if (frame.is_found && (has_scans || scene.scene_folder.empty())) {
         keys = KeysOfFrame(frame, arguments.options);
@@ -171,7 +175,7 @@ int RunCalibrateFrame(const FrameArguments& arguments) {
         frame.is_found = false;
         frame.reason = "it shows its mount; put it into scans/ in place of images/";
       } else if (video) {
-        keys = KeysOfVideo(*video, arguments.options);
+        keys = KeysOfVideo(*video, arguments.options.aspect.has_value());
       }
       if (!common.dry_run) WriteKnownKeys(scene, scan.name, keys, "frame");
     } catch (const Error& error) {
@@ -212,7 +216,8 @@ void AddCalibrateFrame(CLI::App* calibrate, int& exit_status) {
   command
       ->add_option("--aspect",
                    arguments->options.aspect,
-                   "width / height of the openings, where a side lies outside of the scan")
+                   "width / height of the openings, where a side lies outside of the scan, or of "
+                   "what television frames hold")
       ->check(Above(0));
   AddExample(command, "groundglass calibrate frame hall     # hall/scans/ into hall/images/");
   command->callback([arguments, &exit_status] {

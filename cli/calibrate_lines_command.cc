@@ -25,17 +25,25 @@ struct LinesArguments {
   LinesOptions options;
 };
 
-// Width / height as the photograph's tag, or calibration/, has it; nothing where neither says it.
-std::optional<double> FindAspect(const CalibrationScene& scene, const std::string& name) {
-  if (scene.scene_folder.empty()) return std::nullopt;
+// Width / height as the photograph's tag, or calibration/, has it, or as a television frame may
+// have it; pixels are square where none of these says otherwise.
+void FindAspect(const CalibrationScene& scene,
+                const CalibrationPhotograph& photograph,
+                LinesOptions& options) {
   for (const char* folder : {"views", "calibration"}) {
-    const std::filesystem::path file = scene.scene_folder / folder / (name + ".view");
-    if (!std::filesystem::is_regular_file(file)) continue;
+    const std::filesystem::path file = scene.scene_folder / folder / (photograph.name + ".view");
+    if (scene.scene_folder.empty() || !std::filesystem::is_regular_file(file)) continue;
+    options.aspect_sigma = 0;
     for (const KnownKey& key : ReadKnownKeys(file)) {
-      if (key.key == "a") return ParseNumber(key.value);
+      if (key.key == "a") options.aspect = ParseNumber(key.value);
+      if (key.key == "sigma_a") options.aspect_sigma = ParseNumber(key.value).value_or(0);
     }
+    if (options.aspect) return;
   }
-  return std::nullopt;
+  if (const std::optional<VideoAspect> video = VideoAspectOf(photograph.file)) {
+    options.aspect = video->aspect;
+    options.aspect_sigma = video->sigma;
+  }
 }
 
 nlohmann::ordered_json JsonFromLines(const std::string& name, const LinesResult& result) {
@@ -80,7 +88,7 @@ int RunCalibrateLines(const LinesArguments& arguments) {
     KnownKeys keys;
     try {
       LinesOptions options = arguments.options;
-      if (!options.aspect) options.aspect = FindAspect(scene, photograph.name);
+      if (!options.aspect) FindAspect(scene, photograph, options);
       result = CalibrateLines(ReadGrey8(photograph.file), options, common.seed);
       keys = KeysOfLines(result, arguments.options);
       if (!common.dry_run) WriteKnownKeys(scene, photograph.name, keys, "lines");

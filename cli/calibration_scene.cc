@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_paths.h"
+#include "scene/formats/metadata_lens.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -74,6 +75,12 @@ CalibrationScene ReadCalibrationScene(const CalibrationArguments& arguments,
   }
   if (model_file) scene.model = ReadModel(*model_file, arguments.model_arguments.Options()).model;
   return scene;
+}
+
+std::optional<VideoAspect> VideoAspectOf(const fs::path& file, const FrameOptions& options) {
+  const PhotographMetadata metadata = ReadPhotographMetadata(file);
+  if (FindMetadataLens(metadata).view_angle_deg) return std::nullopt;
+  return FindVideoAspect(metadata.size.width, metadata.size.height, options);
 }
 
 void WriteKnownKeys(const CalibrationScene& scene,

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include "calibrate/slide_frame.h"
 #include "cli/commands.h"
 #include "cli/model_arguments.h"
 #include "scene/formats/known_keys.h"
@@ -40,6 +41,11 @@ struct CalibrationScene {
 // Throws Error if that is nothing.
 CalibrationScene ReadCalibrationScene(const CalibrationArguments& arguments,
                                       const std::string& subfolder = "images");
+
+// What a picture of a television frame's size holds, unless its metadata tell the digital camera
+// that took it.
+std::optional<VideoAspect> VideoAspectOf(const std::filesystem::path& file,
+                                         const FrameOptions& options = {});
 
 // What one source (the subcommand's name) found, into calibration/NAME.view beside what others
 // found (MergeKnownKeys). Nothing if nothing is to be written.

@@ -4,6 +4,7 @@
 
 #include "evaluate/svg.h"
 #include "scene/error.h"
+#include "scene/formats/xml_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -89,7 +90,7 @@ void DrawCurve(const CalibrationCurve& curve, const char* color, std::string& sv
   }
   path += fmt::format("H{:.1f}", X(1));
   svg += "<path d=\"" + path + "\" fill=\"none\" stroke-width=\"2\" stroke=\"" + color +
-         "\"><title>" + EscapedForSvg(curve.name) + "</title></path>\n";
+         "\"><title>" + XmlEscaped(curve.name) + "</title></path>\n";
 }
 
 }  // namespace
@@ -141,7 +142,7 @@ std::string FormatCalibrationPlot(const std::vector<CalibrationCurve>& curves) {
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}: {:.0f} % of {} inside 95 %</text>\n",
                        kLeft + 28,
                        y,
-                       EscapedForSvg(curves[i].name),
+                       XmlEscaped(curves[i].name),
                        100 * curves[i].ShareInside(0.95),
                        curves[i].confidences.size());
   }

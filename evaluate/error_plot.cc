@@ -3,6 +3,7 @@
 #include "evaluate/error_plot.h"
 
 #include "evaluate/svg.h"
+#include "scene/formats/xml_text.h"
 
 #include <fmt/format.h>
 
@@ -76,12 +77,12 @@ void DrawAxes(const Panel& panel,
   svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
                      panel.left + kPanelSide / 2,
                      kPanelTop + kPanelSide + 36,
-                     EscapedForSvg(x_label));
+                     XmlEscaped(x_label));
   svg += fmt::format(
       "<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
       panel.left - 44,
       kPanelTop + kPanelSide / 2,
-      EscapedForSvg(y_label));
+      XmlEscaped(y_label));
 }
 
 // The line y = factor * x within the panel.
@@ -125,7 +126,7 @@ void DrawPoint(
                   panel.Y(y),
                   ColorOf(point.verdict));
   svg += fmt::format("<title>{}: {:.3g}, {:.3g}{}{}</title></circle>\n",
-                     EscapedForSvg(point.name),
+                     XmlEscaped(point.name),
                      x,
                      y,
                      point.verdict ? ", " : "",

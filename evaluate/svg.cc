@@ -2,23 +2,11 @@
 // Part of Groundglass.
 #include "evaluate/svg.h"
 
+#include "scene/formats/xml_text.h"
+
 #include <fmt/format.h>
 
 namespace groundglass {
-
-std::string EscapedForSvg(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '<') {
-      escaped += "&lt;";
-    } else if (c == '&') {
-      escaped += "&amp;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
 
 std::string SvgHead(double width, double height, double title_left, const std::string& title) {
   std::string svg;
@@ -31,7 +19,7 @@ std::string SvgHead(double width, double height, double title_left, const std::s
       height);
   svg += "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   svg += fmt::format(
-      "<text x=\"{:.1f}\" y=\"26\" font-size=\"16\">{}</text>\n", title_left, EscapedForSvg(title));
+      "<text x=\"{:.1f}\" y=\"26\" font-size=\"16\">{}</text>\n", title_left, XmlEscaped(title));
   return svg;
 }
 

@@ -10,9 +10,6 @@ namespace groundglass {
 // (matplot++ came later, and is a front of the program gnuplot), and gnuplot would be a program to
 // install for two pictures of known form, without the titles that name each point.
 
-// Text that XML takes for markup, escaped.
-std::string EscapedForSvg(const std::string& text);
-
 // The head of a drawing of this size on white, with a title at the left.
 std::string SvgHead(double width, double height, double title_left, const std::string& title);
 

@@ -12,13 +12,10 @@
 namespace groundglass {
 namespace {
 
-// Picks and repeats channels, then turns the picture upright.
+// Picks and repeats channels.
 template <typename T>
-Raster<T> ColourOf(OpenImage& image, Raster<T> stored) {
-  const std::array<int, 3> channels = image.ColourChannels();
-  if (stored.channels == 3 && channels == std::array<int, 3>{0, 1, 2}) {
-    return Oriented(std::move(stored), image.ExifOrientation());
-  }
+Raster<T> WithChannels(Raster<T> stored, const std::array<int, 3>& channels) {
+  if (stored.channels == 3 && channels == std::array<int, 3>{0, 1, 2}) return stored;
   Raster<T> colour(stored.width, stored.height, 3);
   const size_t pixels = static_cast<size_t>(stored.width) * stored.height;
   for (size_t i = 0; i < pixels; ++i) {
@@ -26,7 +23,13 @@ Raster<T> ColourOf(OpenImage& image, Raster<T> stored) {
       colour.values[3 * i + c] = stored.values[i * stored.channels + channels[c]];
     }
   }
-  return Oriented(std::move(colour), image.ExifOrientation());
+  return colour;
+}
+
+// The same, then turns the picture upright.
+template <typename T>
+Raster<T> ColourOf(OpenImage& image, Raster<T> stored) {
+  return Oriented(WithChannels(std::move(stored), image.ColourChannels()), image.ExifOrientation());
 }
 
 template <typename T>
@@ -68,6 +71,31 @@ Image8 ReadOpenSrgb8(OpenImage& image) {
     return srgb8;
   }
   return ReadCodes<uint8_t>(image, OIIO::TypeUInt8);
+}
+
+void GreyFromSrgb(const Image8& srgb8, uint8_t* grey) {
+  const size_t pixels = static_cast<size_t>(srgb8.width) * srgb8.height;
+  for (size_t i = 0; i < pixels; ++i) {
+    const uint8_t* rgb = &srgb8.values[3 * i];
+    grey[i] = static_cast<uint8_t>(Luma(rgb[0], rgb[1], rgb[2]) + 0.5f);
+  }
+}
+
+// Some rows at a time, so that a large photograph's colours never fill the memory, which takes
+// longer than the reading.
+Image8 ReadGreyByRows(OpenImage& image) {
+  constexpr int kRowsAtOnce = 64;
+  const std::optional<ColourProfile> profile = image.Profile();
+  const std::array<int, 3> channels = image.ColourChannels();
+  Image8 grey(image.spec().width, image.spec().height, 1);
+  for (int begin = 0; begin < grey.height; begin += kRowsAtOnce) {
+    const int end = std::min(grey.height, begin + kRowsAtOnce);
+    Image8 rows =
+        WithChannels(image.ReadRows<uint8_t>(OIIO::TypeDesc::UINT8, begin, end), channels);
+    if (profile) profile->ToSrgb(rows);
+    GreyFromSrgb(rows, grey.At(0, begin));
+  }
+  return Oriented(std::move(grey), image.ExifOrientation());
 }
 
 ImageSize SizeOf(const OpenImage& image) {
@@ -138,12 +166,12 @@ Image16 ReadSrgb16(const std::filesystem::path& file) {
 }
 
 Image8 ReadGrey8(const std::filesystem::path& file) {
-  const Image8 srgb8 = ReadSrgb8(file);
+  OpenImage image(file);
+  image.CheckIsWhole();
+  if (image.HasRows() && !image.HasInks() && !image.IsLinear()) return ReadGreyByRows(image);
+  const Image8 srgb8 = ReadOpenSrgb8(image);
   Image8 grey(srgb8.width, srgb8.height, 1);
-  for (size_t i = 0; i < grey.values.size(); ++i) {
-    const uint8_t* rgb = &srgb8.values[3 * i];
-    grey.values[i] = static_cast<uint8_t>(Luma(rgb[0], rgb[1], rgb[2]) + 0.5f);
-  }
+  GreyFromSrgb(srgb8, grey.values.data());
   return grey;
 }
 

@@ -67,6 +67,18 @@ class OpenImage {
     return stored;
   }
 
+  // Whether ReadRows can be called: a file of tiles, or of a JPEG's inks, is read whole.
+  bool HasRows() const { return spec_.tile_width == 0 && !has_inks_; }
+
+  // The rows from `begin` to before `end`, as Read has them; ask in order.
+  template <typename T>
+  Raster<T> ReadRows(OIIO::TypeDesc type, int begin, int end) {
+    Raster<T> rows(spec_.width, end - begin, spec_.nchannels);
+    CheckRead(input_->read_scanlines(
+        page_, 0, spec_.y + begin, spec_.y + end, 0, 0, spec_.nchannels, type, rows.values.data()));
+    return rows;
+  }
+
   // The three channels that make its colour; grey is repeated.
   std::array<int, 3> ColourChannels() const;
 

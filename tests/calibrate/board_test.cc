@@ -110,6 +110,25 @@ TEST(Board, ItsOwnPrintIsDetectedUprightAndWhole) {
   }
 }
 
+TEST(Board, ALargePictureOfItShowsTheSameAtLowResolution) {
+  const Image8 print = DrawBoard(Board{});
+  Image8 large(2 * print.width, 2 * print.height, 1);
+  for (int y = 0; y < large.height; ++y) {
+    for (int x = 0; x < large.width; ++x) *large.At(x, y) = *print.At(x / 2, y / 2);
+  }
+  ASSERT_GT(large.width, 3000);  // else both look at the same
+  const std::vector<AprilTagDetection> fine = DetectAprilTags(large);
+  const std::vector<AprilTagDetection> coarse = DetectAprilTags(large, AprilTagDetail::kCoarse);
+  EXPECT_GE(fine.size(), 20u);  // the pictures' own limits: a tag or two slip through either
+  EXPECT_GE(coarse.size(), 20u);
+  for (const AprilTagDetection& one : fine) {
+    for (const AprilTagDetection& other : coarse) {
+      if (other.id != one.id) continue;
+      EXPECT_LT((other.corners_px - one.corners_px).cwiseAbs().maxCoeff(), 2);
+    }
+  }
+}
+
 TEST(AprilTagCorners, AreGoodToAFewHundredthsOfAPixelAndSaySo) {
   std::mt19937_64 random(3);
   const Camera lens = CameraFromTag(TrueTag(), kWidthPx, kHeightPx);

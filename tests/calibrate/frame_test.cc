@@ -141,9 +141,26 @@ TEST(SlideFrame, ASideOutsideOfTheScanAsksForTheAspect) {
 }
 
 TEST(SlideFrame, ATelevisionFrameHasItsPixelAspect) {
-  EXPECT_NEAR(*VideoAspect(720, 480), 1.3505, 1e-4);
-  EXPECT_NEAR(*VideoAspect(640, 480), 1.3333, 1e-4);
-  EXPECT_FALSE(VideoAspect(1500, 1000));
+  // No size tells a camera's view from a slide's: both are within a deviation.
+  const std::array<std::array<double, 3>, 4> frames = {
+      {{640, 480, 4.0 / 3}, {720, 480, 1.3505}, {720, 576, 1.3675}, {768, 576, 4.0 / 3}}};
+  for (const auto& [width, height, camera] : frames) {
+    const auto video = FindVideoAspect(static_cast<int>(width), static_cast<int>(height));
+    ASSERT_TRUE(video);
+    EXPECT_LE(std::abs(camera - video->aspect), video->sigma) << width;
+    EXPECT_LE(std::abs(1.5 - video->aspect), video->sigma) << width;
+    EXPECT_LT(video->sigma, 0.09);
+  }
+  EXPECT_FALSE(FindVideoAspect(1500, 1000));
+}
+
+TEST(SlideFrame, ATelevisionFrameOfKnownKindHasItsAspect) {
+  FrameOptions options;
+  options.aspect = 16.0 / 9;
+  const auto video = FindVideoAspect(720, 576, options);
+  ASSERT_TRUE(video);
+  EXPECT_DOUBLE_EQ(video->aspect, 16.0 / 9);
+  EXPECT_LT(video->sigma, 0.01);
 }
 
 }  // namespace

@@ -20,7 +20,9 @@ TEST(CalibrateOptions, LinesNameEachField) {
                                 inflation,
                                 angle,
                                 rival,
-                                a] = LinesOptions();
+                                a,
+                                aspect_sigma,
+                                aspect_share] = LinesOptions();
   ExpectCheckNamesEach<LinesOptions>({
       {"center_sigma", [](LinesOptions& o) { o.center_sigma = 0; }},
       {"k1_sigma", [](LinesOptions& o) { o.k1_sigma = kNotANumber; }},
@@ -29,6 +31,8 @@ TEST(CalibrateOptions, LinesNameEachField) {
       {"min_segments", [](LinesOptions& o) { o.min_segments = 0; }},
       {"inflation", [](LinesOptions& o) { o.inflation = 0.5; }},
       {"worst_view_angle_share", [](LinesOptions& o) { o.worst_view_angle_share = 0; }},
+      {"aspect_sigma", [](LinesOptions& o) { o.aspect_sigma = -1; }},
+      {"worst_aspect_share", [](LinesOptions& o) { o.worst_aspect_share = 0; }},
       {"rival_share", [](LinesOptions& o) { o.rival_share = -1; }},
       {"aspect", [](LinesOptions& o) { o.aspect = 0; }},
   });
@@ -59,7 +63,8 @@ TEST(CalibrateOptions, FramesNameEachField) {
                                 most,
                                 play,
                                 aspect_sigma,
-                                video_sigma,
+                                video_share,
+                                slide,
                                 blur,
                                 a] = FrameOptions();
   ExpectCheckNamesEach<FrameOptions>({
@@ -74,7 +79,8 @@ TEST(CalibrateOptions, FramesNameEachField) {
       {"most_aspect", [](FrameOptions& o) { o.most_aspect = 0.5; }},
       {"mount_play", [](FrameOptions& o) { o.mount_play = 0; }},
       {"least_aspect_sigma", [](FrameOptions& o) { o.least_aspect_sigma = 0; }},
-      {"video_aspect_sigma", [](FrameOptions& o) { o.video_aspect_sigma = -1; }},
+      {"video_aspect_share", [](FrameOptions& o) { o.video_aspect_share = -1; }},
+      {"slide_aspect", [](FrameOptions& o) { o.slide_aspect = 0; }},
       {"blur_px", [](FrameOptions& o) { o.blur_px = -1; }},
       {"aspect", [](FrameOptions& o) { o.aspect = 0; }},
   });

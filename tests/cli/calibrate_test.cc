@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
+#include "scene/formats/image_io.h"
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -109,6 +110,29 @@ TEST(Calibrate, ALensFileGoesToRosAndComesBack) {
   ASSERT_EQ(RunProgram({"calibrate", "export", ros, "-o", back}).status, 0);
   EXPECT_THAT(ReadAll(back), HasSubstr("v 57.3"));
   EXPECT_THAT(ReadAll(back), HasSubstr("k1 -0.1\n"));
+}
+
+// A slide of 3:2 squeezed into 640 x 480, which no file's size tells from a camera's 4:3.
+TEST(Calibrate, ATelevisionFrameMayHoldASlideOrACamerasView) {
+  const TemporaryFolder work;
+  CopyBrick(work / "scene", {"s3"});
+  const fs::path picture = work / "scene/images/s3.png";
+  WriteSrgb8(picture, Image8(640, 480, 3, 128));
+  fs::remove(work / "scene/images/s3.jpg");
+  std::string tag = ReadAll(work / "scene/views/s3.view");
+  tag.erase(tag.find("\na "), tag.find('\n', tag.find("\na ") + 1) - tag.find("\na "));
+  WriteAll(work / "scene/views/s3.view", tag);
+  const std::string scene = (work / "scene").string();
+  const ProgramRun frame = RunProgram({"calibrate", "frame", scene});
+  EXPECT_EQ(frame.status, 0) << frame.err;
+  EXPECT_THAT(frame.out, HasSubstr("s3: a 1.4167 +- 0.083"));
+  // Lines take no pixels' shape for granted that is open, with or without the folder.
+  for (const std::string& input : {scene, picture.string()}) {
+    EXPECT_THAT(RunProgram({"calibrate", "lines", input}).out,
+                HasSubstr("the shape of its pixels is not known (width / height 1.33 to 1.50)"));
+  }
+  EXPECT_THAT(RunProgram({"calibrate", "frame", scene, "--aspect", "1.5"}).out,
+              HasSubstr("s3: a 1.5 +- 0.0075"));
 }
 
 TEST(Calibrate, AMissingSurveyAndAFolderWithoutScansSayWhatIsExpected) {

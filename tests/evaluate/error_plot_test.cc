@@ -22,7 +22,7 @@ TEST(FormatErrorPlot, DrawsEachPointWhereItsNumbersAre) {
       "ft");
   EXPECT_THAT(svg, testing::HasSubstr("cx=\"284.0\" cy=\"274.0\""));
   EXPECT_THAT(svg, testing::HasSubstr("cx=\"394.0\" cy=\"384.0\""));
-  EXPECT_THAT(svg, testing::HasSubstr("<title>s&lt;2>: 100, 0.1, review</title>"));
+  EXPECT_THAT(svg, testing::HasSubstr("<title>s&lt;2&gt;: 100, 0.1, review</title>"));
   EXPECT_THAT(svg, testing::HasSubstr("Errors of a &amp; b"));
   EXPECT_EQ(Count(svg, "<title>s1"), 2);      // in both panels
   EXPECT_EQ(Count(svg, "<title>s&lt;2"), 1);  // claims no sigma

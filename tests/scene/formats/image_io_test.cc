@@ -162,6 +162,22 @@ TEST(ReadGrey8, WeighsAsLumaDoes) {
   EXPECT_EQ(ReadGrey8(folder / "c.png").values, (std::vector<uint8_t>{54, 182, 18}));
 }
 
+TEST(ReadGrey8, ATallPictureIsReadByRowsAsItIsWhole) {
+  const TemporaryFolder folder;
+  Image8 colours(3, 150, 3);
+  for (size_t i = 0; i < colours.values.size(); ++i) {
+    colours.values[i] = static_cast<uint8_t>(37 * i % 256);
+  }
+  WriteSrgb8(folder / "c.png", colours);
+  const Image8 grey = ReadGrey8(folder / "c.png");
+  ASSERT_EQ(grey.height, 150);
+  for (size_t i = 0; i < grey.values.size(); ++i) {
+    const double luma = 0.2126 * colours.values[3 * i] + 0.7152 * colours.values[3 * i + 1] +
+                        0.0722 * colours.values[3 * i + 2];
+    EXPECT_NEAR(grey.values[i], luma, 0.51) << i;
+  }
+}
+
 TEST(ReadImages, EveryOrientationComesUpright) {
   // Stored so that a viewer that heeds the code shows 1 2 3 over 4 5 6.
   const std::vector<std::vector<uint8_t>> stored = {{1, 2, 3, 4, 5, 6},
