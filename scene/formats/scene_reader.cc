@@ -242,10 +242,16 @@ void SceneReader::AddMasks(const char* subfolder, std::optional<fs::path> Photog
   }
   std::vector<Photograph>& photographs = result_.scene.photographs;
   std::vector<std::optional<size_t>> matches = MatchPhotographs(names, NamesOf(photographs));
+  std::vector<PhotographName> untagged;
+  for (const fs::path& image : result_.scene.untagged_images) {
+    untagged.push_back({image.stem().string(), image.filename().string()});
+  }
+  const std::vector<std::optional<size_t>> untagged_matches = MatchPhotographs(names, untagged);
   for (size_t i = 0; i < files.size(); ++i) {
     const fs::path& file = files[i];
     if (!matches[i]) matches[i] = FindByPlace(file.lexically_relative(folder_ / subfolder));
     if (!matches[i]) {
+      if (untagged_matches[i]) continue;  // its photograph is warned of
       Warn(file, "mask without a photograph; expected images/" + names[i] + " with " + kImageNames);
       continue;
     }

@@ -27,9 +27,10 @@ TexturedModel MakeHall() {
                       {{3, 0, 4, 7}, "west"},
                       {{4, 5, 6, 7}, "roof"}};
   for (int face = 0; face < 5; ++face) {
-    const double x = (face % 2) * kPagePx / 2;
-    const double y = (face / 2 % 2) * kPagePx / 2;
-    constexpr double kSize = kPagePx / 2;
+    constexpr double kSize = kPagePx / 2.0;
+    const int row = face / 2 % 2;
+    const double x = face % 2 * kSize;
+    const double y = row * kSize;
     hall.faces.push_back({0, {{x, y + kSize}, {x + kSize, y + kSize}, {x + kSize, y}, {x, y}}});
   }
   TexturePage page;

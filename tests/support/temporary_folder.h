@@ -32,7 +32,7 @@ class TemporaryFolder {
 
   // Writes a file, its folders made as needed; returns its path.
   std::filesystem::path Write(const std::string& name, const std::string& bytes) const {
-    const std::filesystem::path file = path_ / name;
+    std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary) << bytes;
     return file;

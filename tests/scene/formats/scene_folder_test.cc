@@ -182,6 +182,7 @@ TEST(CheckScene, WarnsOfWhatDoesNotMatchAndSaysWhatWasExpected) {
   folder.Write("views/notes.txt", "");
   folder.Write("images/.hidden", "");
   WriteLabels(folder / "masks/s99.png", Image16(30, 20, 1));
+  WriteLabels(folder / "masks/S7.png", Image16(30, 20, 1));
   const SceneCheck check = CheckScene(folder.path());
   EXPECT_THAT(check.faults, IsEmpty());
   const std::vector<std::string>& warnings = check.scene.warnings;
@@ -194,6 +195,8 @@ TEST(CheckScene, WarnsOfWhatDoesNotMatchAndSaysWhatWasExpected) {
   EXPECT_THAT(warnings, Contains(HasSubstr("images/Thumbs.db: not an image that is read here")));
   EXPECT_THAT(warnings, Contains(HasSubstr("views/notes.txt: not a view file")));
   EXPECT_THAT(warnings, Contains(HasSubstr("masks/s99.png: mask without a photograph")));
+  EXPECT_THAT(warnings, testing::Not(Contains(HasSubstr("masks/S7.png"))))
+      << "the mask of a photograph without a tag";
   EXPECT_EQ(warnings.size(), 5u);
 }
 
