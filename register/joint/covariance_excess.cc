@@ -2,23 +2,23 @@
 // Part of Groundglass.
 #include "register/joint/covariance_excess.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "scene/cholesky.h"
+#include "scene/least_norm.h"
+#include "scene/symmetric_eigen.h"
 
 namespace groundglass {
 
 Eigen::MatrixXd CovarianceExcess(const Eigen::MatrixXd& measured,
                                  const Eigen::MatrixXd& counted,
                                  const Eigen::MatrixXd& covariance) {
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  const Eigen::MatrixXd root = UpperCholeskyFactor(covariance).transpose();
   const Eigen::MatrixXd difference = measured - counted;
   // L^-1 D L^-T, in which the covariance is the identity.
-  const Eigen::MatrixXd half = root.matrixL().solve(difference);
-  const Eigen::MatrixXd relative = root.matrixL().solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(0.5 *
-                                                            (relative + relative.transpose()));
-  const Eigen::MatrixXd widened = root.matrixL() * axes.eigenvectors() *
-                                  axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const Eigen::MatrixXd half = SolveLeastNorm(root, difference);
+  const Eigen::MatrixXd relative = SolveLeastNorm(root, half.transpose());
+  const SymmetricEigen axes = DecomposeSymmetric(0.5 * (relative + relative.transpose()));
+  const Eigen::MatrixXd widened =
+      root * axes.vectors * axes.values.cwiseMax(0).cwiseSqrt().asDiagonal();
   return widened * widened.transpose();
 }
 
