@@ -7,48 +7,59 @@
 #include "scene/formats/view_io.h"
 #include "scene/reduce.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
-#include <system_error>
+#include <fstream>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace groundglass {
 namespace {
 
-bool IsSameFile(const Photograph& a, const Photograph& b) {
-  std::error_code ignored;
-  const auto size = std::filesystem::file_size(a.image_file, ignored);
-  if (ignored || size != std::filesystem::file_size(b.image_file, ignored) || ignored) return false;
-  return ReadFileBytes(a.image_file) == ReadFileBytes(b.image_file);
-}
-
-bool HasSameNumbers(const ViewTag& a, const ViewTag& b) {
-  return a.position_in_site == b.position_in_site && a.lookat_in_site == b.lookat_in_site;
-}
-
-// How alike two pictures are, much reduced: 1 for one view from one tripod.
-double Likeness(const Photograph& a, const Photograph& b) {
-  constexpr int kSize = 24;
-  const Image8 first = ReducedInLight(ReadSrgb8(a.image_file), kSize, kSize);
-  const Image8 second = ReducedInLight(ReadSrgb8(b.image_file), kSize, kSize);
-  double sum_first = 0;
-  double sum_second = 0;
-  double squares_first = 0;
-  double squares_second = 0;
-  double products = 0;
-  const double count = static_cast<double>(first.values.size());
-  for (size_t i = 0; i < first.values.size(); ++i) {
-    const double x = first.values[i];
-    const double y = second.values[i];
-    sum_first += x;
-    sum_second += y;
-    squares_first += x * x;
-    squares_second += y * y;
-    products += x * y;
+// What tells two files apart without reading them whole: scans without compression are large, and
+// all of one length.
+std::string SampleOf(const std::filesystem::path& file) {
+  constexpr std::streamoff kSampleBytes = 16384;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) return "";  // told by those who read it for its own sake
+  const auto length = static_cast<std::streamoff>(in.tellg());
+  std::string sample = std::to_string(length) + ' ';
+  std::string bytes(kSampleBytes, '\0');
+  for (const std::streamoff at : {length / 3, 2 * length / 3}) {
+    in.clear();
+    in.seekg(at);
+    in.read(bytes.data(), kSampleBytes);
+    sample.append(bytes, 0, static_cast<size_t>(in.gcount()));
   }
-  const double variances = (squares_first - sum_first * sum_first / count) *
-                           (squares_second - sum_second * sum_second / count);
-  return variances > 0 ? (products - sum_first * sum_second / count) / std::sqrt(variances) : 1;
+  return sample;
+}
+
+std::array<double, 6> NumbersOf(const ViewTag& tag) {
+  const Eigen::Vector3d& position = tag.position_in_site;
+  const Eigen::Vector3d& lookat = tag.lookat_in_site;
+  return {position.x(), position.y(), position.z(), lookat.x(), lookat.y(), lookat.z()};
+}
+
+// A picture much reduced, less its mean.
+Eigen::ArrayXd Gist(const Photograph& photograph) {
+  constexpr int kSize = 24;
+  const Image8 small = ReducedInLight(ReadSrgb8(photograph.image_file), kSize, kSize);
+  const Eigen::ArrayXd codes =
+      Eigen::Map<const Eigen::Array<uint8_t, Eigen::Dynamic, 1>>(
+          small.values.data(), static_cast<Eigen::Index>(small.values.size()))
+          .cast<double>();
+  return codes - codes.mean();
+}
+
+// How alike two pictures are: 1 for one view from one tripod.
+double Likeness(const Photograph& a, const Photograph& b) {
+  const Eigen::ArrayXd first = Gist(a);
+  const Eigen::ArrayXd second = Gist(b);
+  const double scale = std::sqrt(first.square().sum() * second.square().sum());
+  return scale > 0 ? (first * second).sum() / scale : 1;
 }
 
 // Two exposures from one stand have one tag; two pictures of different things have not.
@@ -64,27 +75,31 @@ bool ShowsTheSame(const Photograph& a, const Photograph& b) {
 }  // namespace
 
 void AdviseOnDoubles(const AdviceContext& context) {
-  const std::vector<Photograph>& photographs = context.scene.photographs;
-  for (size_t i = 0; i < photographs.size(); ++i) {
-    const Photograph& later = photographs[i];
-    for (size_t k = 0; k < i; ++k) {
-      const Photograph& earlier = photographs[k];
-      if (IsSameFile(later, earlier)) {
-        context.Add(Advice::Severity::kDetail,
-                    later.image_file.string(),
-                    "this is the very same picture as " + earlier.image_file.filename().string(),
-                    "take one of them out, or put the picture here that was meant");
-        break;
-      }
-      if (HasSameNumbers(later.tag, earlier.tag) && !ShowsTheSame(later, earlier)) {
-        context.Add(Advice::Severity::kDetail,
-                    TagPlace(context.scene, later),
-                    "has the position and look-at point of " + earlier.name +
-                        ", and the two pictures show different things",
-                    "write its own numbers; one of the two was copied");
-        break;
-      }
+  std::map<std::string, std::vector<const Photograph*>> by_sample;
+  std::map<std::array<double, 6>, const Photograph*> first_with_numbers;
+  for (const Photograph& later : context.scene.photographs) {
+    const std::string sample = SampleOf(later.image_file);
+    if (sample.empty()) continue;
+    std::vector<const Photograph*>& alike = by_sample[sample];
+    const auto same_file = std::find_if(alike.begin(), alike.end(), [&](const auto* earlier) {
+      return ReadFileBytes(earlier->image_file) == ReadFileBytes(later.image_file);
+    });
+    const Photograph* first =
+        first_with_numbers.emplace(NumbersOf(later.tag), &later).first->second;
+    if (same_file != alike.end()) {
+      context.Add(
+          Advice::Severity::kDetail,
+          later.image_file.string(),
+          "this is the very same picture as " + (*same_file)->image_file.filename().string(),
+          "take one of them out, or put the picture here that was meant");
+    } else if (first != &later && !ShowsTheSame(*first, later)) {
+      context.Add(Advice::Severity::kDetail,
+                  TagPlace(context.scene, later),
+                  "has the position and look-at point of " + first->name +
+                      ", and the two pictures show different things",
+                  "write its own numbers; one of the two was copied");
     }
+    alike.push_back(&later);
   }
 }
 
