@@ -87,7 +87,10 @@ AprilTagResidual MakeResidual(const Board& board,
   AprilTagResidual residual;
   residual.corners_on_board = AprilTagCornersOnBoard(board, april_tag.id);
   residual.observed_px = april_tag.corners_px;
-  residual.root_information = UpperCholeskyFactor(april_tag.information);
+  // Corners of which nothing is known say nothing.
+  const std::optional<Eigen::MatrixXd> root = UpperCholeskyFactor(april_tag.information);
+  residual.root_information.setZero();
+  if (root) residual.root_information = *root;
   residual.width_px = width_px;
   residual.height_px = height_px;
   return residual;

@@ -246,9 +246,12 @@ std::vector<SeenTag> FindSeenTags(const Image8& srgb_grey,
     if (place == surveyed.end()) continue;
     SeenTag tag;
     tag.place = *place;
-    if (const auto measured = MeasureAprilTagCorners(srgb_grey, detection, kWhiteBeside, lens)) {
+    const auto measured = MeasureAprilTagCorners(srgb_grey, detection, kWhiteBeside, lens);
+    std::optional<Eigen::MatrixXd> root;
+    if (measured) root = UpperCholeskyFactor(measured->information);
+    if (root) {
       tag.corners_px = measured->corners_px;
-      tag.root_information = UpperCholeskyFactor(measured->information);
+      tag.root_information = *root;
     } else {
       tag.corners_px = Eigen::Map<const Eigen::Matrix<double, 8, 1>>(detection.corners_px.data());
       tag.root_information.setIdentity();

@@ -10,8 +10,10 @@ std::optional<Eigen::MatrixXd> InvertByCholesky(const Eigen::MatrixXd& matrix) {
   return factors.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
 }
 
-Eigen::MatrixXd UpperCholeskyFactor(const Eigen::MatrixXd& matrix) {
-  return matrix.llt().matrixU();
+std::optional<Eigen::MatrixXd> UpperCholeskyFactor(const Eigen::MatrixXd& matrix) {
+  const Eigen::LLT<Eigen::MatrixXd> factors(matrix);
+  if (factors.info() != Eigen::Success) return std::nullopt;
+  return factors.matrixU();
 }
 
 }  // namespace groundglass

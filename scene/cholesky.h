@@ -15,6 +15,7 @@ namespace groundglass {
 std::optional<Eigen::MatrixXd> InvertByCholesky(const Eigen::MatrixXd& matrix);
 
 // The upper triangle U of matrix = U^T U: of an information matrix, what whitens its residuals.
-Eigen::MatrixXd UpperCholeskyFactor(const Eigen::MatrixXd& matrix);
+// None where the matrix is not positive definite.
+std::optional<Eigen::MatrixXd> UpperCholeskyFactor(const Eigen::MatrixXd& matrix);
 
 }  // namespace groundglass

@@ -25,7 +25,8 @@ struct JointOptions {
   // What is seen of an edge in one photograph only (light, blur, a joint on its sunny side). Long
   // tails here too: Student's t. The size of both parts is found in each scene, between the least
   // and the most: that of the own part from what is left of each edge, that of the shared one as
-  // the upper quartile of the displacements, for all modes that move an edge together.
+  // the upper quartile of the displacements, for all modes that move an edge together: each of them
+  // (EdgeBias::shared_offset_sigmas) has its part of that.
   EdgeBias own = {0.4, 0.4, 1};
   double own_degrees_of_freedom = 3;
   double least_own_offset_sigmas = 0.002 / 0.03;

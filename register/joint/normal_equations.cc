@@ -75,8 +75,11 @@ NormalEquations::RowMajorMatrix NormalEquations::JacobianOf(const std::vector<Ro
 }
 
 Eigen::SparseMatrix<double> NormalEquations::InformationOf(const std::vector<Rows>& rows) const {
-  const Eigen::SparseMatrix<double> by_column = JacobianOf(rows);
-  return by_column.transpose() * by_column;
+  // Not of a matrix of these rows, as for the few of a cluster: they may be nearly all.
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(jacobian_.rows());
+  for (const Rows& each : rows) counts.segment(each.first, each.size).setOnes();
+  const RowMajorMatrix theirs = counts.asDiagonal() * jacobian_;
+  return jacobian_.transpose() * theirs;
 }
 
 Eigen::VectorXd NormalEquations::LeaveOutUpdate(const std::vector<Rows>& left_out) const {

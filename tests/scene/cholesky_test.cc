@@ -13,13 +13,15 @@ TEST(Cholesky, InvertsAndFactors) {
   const auto inverse = InvertByCholesky(matrix);
   ASSERT_TRUE(inverse);
   EXPECT_TRUE((*inverse * matrix).isIdentity(1e-12));
-  const Eigen::MatrixXd upper = UpperCholeskyFactor(matrix);
+  const Eigen::MatrixXd upper = UpperCholeskyFactor(matrix).value();
   EXPECT_TRUE((upper.transpose() * upper).isApprox(matrix, 1e-12));
   EXPECT_EQ(upper(2, 0), 0);
 }
 
-TEST(Cholesky, HasNoInverseOfWhatIsNotPositiveDefinite) {
-  EXPECT_FALSE(InvertByCholesky(Eigen::Vector2d(1, -1).asDiagonal().toDenseMatrix()));
+TEST(Cholesky, HasNothingOfWhatIsNotPositiveDefinite) {
+  const Eigen::MatrixXd saddle = Eigen::Vector2d(1, -1).asDiagonal();
+  EXPECT_FALSE(InvertByCholesky(saddle));
+  EXPECT_FALSE(UpperCholeskyFactor(saddle));
 }
 
 }  // namespace
