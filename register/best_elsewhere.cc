@@ -4,6 +4,8 @@
 
 #include "register/camera/mean_displacement.h"
 
+#include <algorithm>
+
 namespace groundglass {
 
 BestElsewhere FindBestElsewhere(const AlignedPhotograph& photograph,
@@ -30,6 +32,10 @@ BestElsewhere FindBestElsewhere(const AlignedPhotograph& photograph,
   }
   best.lead_nats = nats - most_nats;
   return best;
+}
+
+double ShareOfElsewhere(double margin_nats, double least_margin_nats) {
+  return std::clamp(0.5 * (1 - margin_nats / least_margin_nats), 0.0, 1.0);
 }
 
 }  // namespace groundglass

@@ -34,4 +34,8 @@ BestElsewhere FindBestElsewhere(const AlignedPhotograph& photograph,
                                 const std::vector<Eigen::Vector3d>& points_in_world,
                                 double distinct_px);
 
+// How much of the square of the way to it a claim takes in, so that it covers both cameras: half
+// where edges say as much for it, none where they say least_margin_nats less, never more than all.
+double ShareOfElsewhere(double margin_nats, double least_margin_nats);
+
 }  // namespace groundglass

@@ -153,12 +153,18 @@ TieSupport SupportFor(const AlignedPhotograph& photograph,
   return MeasureTieSupport(0, ties, views, edge_model.sigma, options.tie_support);
 }
 
-// What edges and ties say for a camera, as far as they can be compared with its second-best one's.
-double NatsFor(const AlignedPhotograph& photograph, const ScoreOptions& options) {
+AlignmentScore ScoreOf(const AlignedPhotograph& photograph, const ScoreOptions& options) {
   return ScoreFromSamples(
-             photograph.score_samples, photograph.prior.ProjectionAt(photograph.whitened), options)
-             .nats -
-         0.5 * photograph.whitened.squaredNorm() + photograph.log_probability;
+      photograph.score_samples, photograph.prior.ProjectionAt(photograph.whitened), options);
+}
+
+// What edges and the tag say for a camera, as far as that can be compared with its second-best one.
+double NatsFor(const AlignedPhotograph& photograph, const AlignmentScore& score) {
+  return score.nats - 0.5 * photograph.whitened.squaredNorm() + photograph.log_probability;
+}
+
+double NatsFor(const AlignedPhotograph& photograph, const ScoreOptions& options) {
+  return NatsFor(photograph, ScoreOf(photograph, options));
 }
 
 // Photographs that are not accepted by themselves join those that are where others show the same,
@@ -233,15 +239,13 @@ bool TakeOutWorsened(const RegisterOptions& options,
 
 // What edges and other photographs say for the camera that the set has found. It is scored as the
 // photograph's own solution was, by what that one saw.
-Evidence EvidenceFor(const AlignedPhotograph& photograph,
+Evidence EvidenceFor(const AlignmentScore& score,
                      const BestElsewhere& elsewhere,
                      const TieSupport& support,
                      const std::function<TieSupport(const CameraParameters&)>& support_elsewhere,
                      const RegisterOptions& options) {
   Evidence evidence;
-  evidence.score = ScoreFromSamples(photograph.score_samples,
-                                    photograph.prior.ProjectionAt(photograph.whitened),
-                                    options.solutions.score);
+  evidence.score = score;
   if (elsewhere.camera) {
     evidence.margin_nats = elsewhere.lead_nats;
     // Patches are compared through the other camera as well only where edges do not decide.
@@ -255,8 +259,7 @@ Evidence EvidenceFor(const AlignedPhotograph& photograph,
 }
 
 // Where edges do not tell a camera from another that is as near as cameras must be known, this is
-// no question of which but of how well: the claim covers both. The other one is as likely where it
-// has as much for it, and no longer counts where the lead is all that is asked for.
+// no question of which but of how well: the claim covers both.
 void CoverBoth(const AlignedPhotograph& photograph,
                const BestElsewhere& elsewhere,
                const VerdictOptions& options,
@@ -266,9 +269,9 @@ void CoverBoth(const AlignedPhotograph& photograph,
   if (!evidence.margin_nats || *evidence.margin_nats >= least_margin) return;
   if (elsewhere.distance_px * 640 > options.max_vertex_sigma_px * photograph.prior.width_px) return;
   evidence.claim_covers_both = true;
-  const double share = std::min(1.0, 0.5 * (1 - *evidence.margin_nats / least_margin));
   const CameraParameters apart = *elsewhere.camera - solution.whitened;
-  solution.covariance += share * apart * apart.transpose();
+  solution.covariance +=
+      ShareOfElsewhere(*evidence.margin_nats, least_margin) * apart * apart.transpose();
 }
 
 void JudgeMember(size_t i,
@@ -293,12 +296,13 @@ void JudgeMember(size_t i,
   for (const CandidateSample& found : photograph.found) {
     points_in_world.push_back(found.sample.point_in_world);
   }
+  const AlignmentScore score = ScoreOf(photograph, options.solutions.score);
   const BestElsewhere elsewhere = FindBestElsewhere(photograph,
-                                                    NatsFor(photograph, options.solutions.score),
+                                                    NatsFor(photograph, score),
                                                     set.alone[i],
                                                     points_in_world,
                                                     options.solutions.distinct_distance_px);
-  Evidence evidence = EvidenceFor(photograph, elsewhere, support, support_elsewhere, options);
+  Evidence evidence = EvidenceFor(score, elsewhere, support, support_elsewhere, options);
   evidence.second_best_distance_px =
       elsewhere.distance_px * registration.width_px / photograph.prior.width_px;
   CoverBoth(photograph, elsewhere, options.verdict, evidence, solution);
@@ -320,19 +324,16 @@ void JudgeMember(size_t i,
 
 // What each shares with others, beside what these share with one another.
 void JudgeTiesOfMembers(const VerdictOptions& options, const PhotographSet& set) {
-  int num_tried = 0;
-  int num_agreeing = 0;
+  Registration::Ties all;
   for (const PhotographAlignment* alignment : set.alignments) {
     if (!alignment->registration.ties) continue;
-    num_tried += alignment->registration.ties->num_tried;
-    num_agreeing += alignment->registration.ties->num_agreeing;
+    all.num_tried += alignment->registration.ties->num_tried;
+    all.num_agreeing += alignment->registration.ties->num_agreeing;
   }
   for (PhotographAlignment* alignment : set.alignments) {
-    if (!alignment->registration.ties) continue;
-    const Registration::Ties& own = *alignment->registration.ties;
-    const double others_share = static_cast<double>(num_agreeing - own.num_agreeing) /
-                                std::max(1, num_tried - own.num_tried);
-    ApplyJudgement(JudgeTies(own, others_share, options), alignment->registration);
+    Registration& registration = alignment->registration;
+    if (!registration.ties) continue;
+    ApplyJudgement(JudgeTies(*registration.ties, all, options), registration);
   }
 }
 

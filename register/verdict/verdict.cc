@@ -200,8 +200,10 @@ Judgement JudgeDisagreement() {
 }
 
 Judgement JudgeTies(const Registration::Ties& ties,
-                    double others_share,
+                    const Registration::Ties& all,
                     const VerdictOptions& options) {
+  const double others_share = static_cast<double>(all.num_agreeing - ties.num_agreeing) /
+                              std::max(1, all.num_tried - ties.num_tried);
   const double expected = others_share * ties.num_tried;
   if (expected < options.min_expected_ties) return {};
   if (ties.num_agreeing >= options.min_share_of_expected_ties * expected) return {};

@@ -99,11 +99,12 @@ Judgement JudgeTag(const CameraParameters& parameters,
 // Review where the other photographs pull a camera away from what its own edges say.
 Judgement JudgeDisagreement();
 
-// Review where a photograph should share places with others and shares none: its edges may all fit
-// lines beside those that are meant. others_share: of the places that the others seek in one
-// another, those that they find where their cameras put them.
+// Review where a photograph shares far fewer places with others than it should: its edges may all
+// fit lines beside those that are meant. all: the sums over all photographs, this one included;
+// what it should share follows from what the others, of the places that they seek, find where their
+// cameras put them.
 Judgement JudgeTies(const Registration::Ties& ties,
-                    double others_share,
+                    const Registration::Ties& all,
                     const VerdictOptions& options);
 
 // Review where two parts of the model's drawing do not agree on the camera. conflict: in pixels of

@@ -70,5 +70,13 @@ TEST_F(BestElsewhereTest, IsNoneWhereThePhotographHadOneCameraAlone) {
           .camera);
 }
 
+TEST(ShareOfElsewhere, IsHalfWhereEdgesSayAsMuchAndNoneWhereTheLeadIsEnough) {
+  EXPECT_DOUBLE_EQ(ShareOfElsewhere(0, 20), 0.5);
+  EXPECT_DOUBLE_EQ(ShareOfElsewhere(10, 20), 0.25);
+  EXPECT_DOUBLE_EQ(ShareOfElsewhere(20, 20), 0);
+  EXPECT_DOUBLE_EQ(ShareOfElsewhere(-20, 20), 1);
+  EXPECT_DOUBLE_EQ(ShareOfElsewhere(-90, 20), 1);
+}
+
 }  // namespace
 }  // namespace groundglass

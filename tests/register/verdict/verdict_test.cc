@@ -34,20 +34,21 @@ TEST(JudgeFit, ASecondBestThatTheClaimCoversIsNone) {
 }
 
 TEST(JudgeTies, APhotographThatSharesNothingWhereOthersDoIsReviewed) {
-  const Judgement judgement = JudgeTies({35, 0, -3.5}, 0.33, {});
+  const Judgement judgement = JudgeTies({35, 0, -3.5}, {135, 33, 20}, {});
   EXPECT_EQ(judgement.verdict, Verdict::kReview);
   EXPECT_THAT(judgement.reasons,
               ElementsAre("other photographs do not confirm its camera: of 35 places that they "
                           "could share, 0 agree, where 12 should by what they share with one "
                           "another"));
-  EXPECT_EQ(JudgeTies({35, 2, 2}, 0.33, {}).verdict, Verdict::kAccepted);
+  EXPECT_EQ(JudgeTies({35, 2, 2}, {135, 35, 20}, {}).verdict, Verdict::kAccepted);
 }
 
 // Where light or glass hide walls, or few places are sought, nothing follows.
 TEST(JudgeTies, LittleThatIsExpectedSaysNothing) {
-  EXPECT_EQ(JudgeTies({100, 0, -10}, 0.04, {}).verdict, Verdict::kAccepted);
-  EXPECT_EQ(JudgeTies({10, 0, -1}, 0.5, {}).verdict, Verdict::kAccepted);
-  EXPECT_EQ(JudgeTies({10, 0, -1}, 0.5, {.min_expected_ties = 4}).verdict, Verdict::kReview);
+  EXPECT_EQ(JudgeTies({100, 0, -10}, {200, 4, 0}, {}).verdict, Verdict::kAccepted);
+  EXPECT_EQ(JudgeTies({10, 0, -1}, {110, 50, 0}, {}).verdict, Verdict::kAccepted);
+  EXPECT_EQ(JudgeTies({10, 0, -1}, {110, 50, 0}, {.min_expected_ties = 4}).verdict,
+            Verdict::kReview);
 }
 
 TEST(JudgeConflict, PartsOfTheModelThatDisagreeAreReviewed) {
