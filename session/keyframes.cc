@@ -61,7 +61,7 @@ void Keyframes::Add(const Camera& camera, double lookat_distance) {
   WriteFileAtomically(file, text);
   last_number_ = number;
   cameras_.push_back(camera);
-  added_.push_back({file, text});
+  added_.push_back({file, text, cameras_.size() - 1});
 }
 
 bool Keyframes::RemoveLast() {
@@ -73,8 +73,9 @@ bool Keyframes::RemoveLast() {
     throw Error(last.file, "was changed by somebody else since it was added; it stays");
   }
   if (bytes) fs::remove(last.file);
-  cameras_.pop_back();
-  --last_number_;
+  // One behind it may be there still, that could not be removed.
+  if (last.camera + 1 == cameras_.size()) --last_number_;
+  cameras_.erase(cameras_.begin() + static_cast<std::ptrdiff_t>(last.camera));
   return true;
 }
 

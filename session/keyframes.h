@@ -36,6 +36,7 @@ class Keyframes {
   struct Added {
     std::filesystem::path file;
     std::string text;
+    size_t camera = 0;  // its place in cameras_
   };
   std::vector<Added> added_;  // by this object
 };

@@ -5,7 +5,6 @@
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/ignore_mask.h"
-#include "scene/formats/text_encoding.h"
 #include "scene/text.h"
 #include "session/file_bytes.h"
 
@@ -13,23 +12,12 @@ namespace groundglass {
 
 namespace fs = std::filesystem;
 
-// Where its mask is, or will be. Scenes tell it for photographs with a tag only.
-fs::path MaskDesk::FileOf(const SessionPhotograph& photograph) const {
-  if (photograph.mask_file) return *photograph.mask_file;
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_, ignored)) {
-    const bool is_its = FoldedName(entry.path().stem().string()) == FoldedName(photograph.name);
-    if (is_its && entry.is_regular_file()) return entry.path();
-  }
-  return folder_ / (photograph.name + ".png");
-}
-
 MaskPaint& MaskDesk::Paint(int photograph) {
   const auto open = desks_.find(photograph);
   if (open != desks_.end()) return open->second.paint;
   const SessionPhotograph& of = session_.photographs()[photograph];
   if (of.size.width == 0) throw Error(of.image_file, "cannot be read, so it has no mask");
-  const fs::path file = FileOf(of);
+  const fs::path file = of.mask_file.value_or(folder_ / (of.name + ".png"));
   std::optional<std::string> bytes = BytesOf(file);
   Image8 ignore;
   if (bytes) ignore = ReadIgnoreMask(file, of.size);

@@ -40,7 +40,6 @@ class MaskDesk {
     mutable int compared_version = -1;  // of the paint, for which this holds:
     mutable bool is_unsaved = false;
   };
-  std::filesystem::path FileOf(const SessionPhotograph& photograph) const;
   Session& session_;
   std::filesystem::path folder_;
   std::map<int, Desk> desks_;

@@ -36,6 +36,8 @@ std::vector<Photograph> UntaggedOf(const Scene& scene) {
     Photograph& photograph = untagged.emplace_back();
     photograph.name = names[i];
     photograph.image_file = files[i];
+    const auto mask = scene.masks_of_untagged.find(files[i]);
+    if (mask != scene.masks_of_untagged.end()) photograph.mask_file = mask->second;
   }
   return untagged;
 }

@@ -40,7 +40,7 @@ class TagsTable {
                         const ViewTag& tag,
                         const std::string& reason) const;
   // The tag's standard deviations that the table has no column for, and so does not keep:
-  // "sigma_xy,sigma_z"; empty if none.
+  // "sigma_position,sigma_height"; empty if none.
   std::string SigmasWithoutColumn(const ViewTag& tag) const;
 
  private:

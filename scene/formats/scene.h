@@ -9,6 +9,7 @@
 #include "scene/view_tag.h"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,7 @@ struct Scene {
   std::vector<UnreadablePhotograph> unreadable;
   std::vector<std::string> left_out;  // names of photographs that the options leave out
   std::vector<std::filesystem::path> untagged_images;  // photographs that no tag is there for
+  std::map<std::filesystem::path, std::filesystem::path> masks_of_untagged;  // by their images
   std::vector<std::string> warnings;  // a photograph without a tag, a tag without a photograph, ...
   std::vector<std::filesystem::path> lens_files;  // of calibration/
   // What the tags lack and was taken from calibration/ or from the pictures' metadata; one line

@@ -251,7 +251,11 @@ void SceneReader::AddMasks(const char* subfolder, std::optional<fs::path> Photog
     const fs::path& file = files[i];
     if (!matches[i]) matches[i] = FindByPlace(file.lexically_relative(folder_ / subfolder));
     if (!matches[i]) {
-      if (untagged_matches[i]) continue;  // its photograph is warned of
+      if (untagged_matches[i]) {  // its photograph is warned of
+        const fs::path& image = result_.scene.untagged_images[*untagged_matches[i]];
+        if (member == &Photograph::mask_file) result_.scene.masks_of_untagged[image] = file;
+        continue;
+      }
       Warn(file, "mask without a photograph; expected images/" + names[i] + " with " + kImageNames);
       continue;
     }

@@ -56,6 +56,12 @@ TEST(Keyframes, FilesOfOthersAreNeitherWrittenOverNorRemoved) {
   folder.Write("flight/3.view", "changed by hand");
   EXPECT_THAT(ThrownMessage([&] { keyframes.RemoveLast(); }), testing::HasSubstr("it stays"));
   EXPECT_EQ(ReadTextFile(folder / "flight/3.view"), "changed by hand");
+  // It stays in the flight, and the one before it can still be taken back.
+  EXPECT_TRUE(keyframes.RemoveLast());
+  EXPECT_FALSE(fs::exists(folder / "flight/1.view"));
+  ASSERT_EQ(keyframes.cameras().size(), 1u);
+  EXPECT_NEAR(keyframes.cameras()[0].PositionInWorld().x(), 3, 1e-9);
+  EXPECT_FALSE(keyframes.RemoveLast());
 }
 
 TEST(Keyframes, ANameThatWouldComeLastIsTold) {
