@@ -5,6 +5,7 @@
 #include "ask/survey.h"
 #include "cli/option_range.h"
 #include "scene/error.h"
+#include "scene/formats/atomic_file.h"
 #include "scene/formats/coloured_model_io.h"
 #include "scene/formats/ignore_mask.h"
 #include "scene/formats/image_io.h"
@@ -49,11 +50,8 @@ TexturedModelReading ReadDesign(const MontageArguments& arguments,
                                 const PolygonModel& building) {
   TexturedModelReading design = ReadColouredModel(arguments.design, options);
   PolygonModel& model = design.textured.model;
-  if (!model.is_unit_assumed) {
-    const double scale = MetresPerUnit(model.unit) / MetresPerUnit(building.unit);
-    for (Eigen::Vector3d& point : model.points_in_world) point *= scale;
-  }
-  model.unit = building.unit;
+  if (model.is_unit_assumed) model.unit = building.unit;
+  ChangeUnit(building.unit, model);
   return design;
 }
 
@@ -173,6 +171,8 @@ int RenderMontage(const MontageArguments& arguments,
   const OpenedFolder opened = OpenFolder(folder, arguments.scene, {}, true);
   const Survey survey = SurveyOf(opened);
   const FoundPhotograph found = FindOver(arguments, survey, folder);
+  RequireOtherFile(found.image_file, out);
+  RequireOtherFile(arguments.design, out);
   const SurveyPhotograph& photograph = found.photograph;
   TexturedModelReading design = ReadDesign(arguments, model_options, opened.textured.model);
 

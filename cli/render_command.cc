@@ -256,8 +256,13 @@ int RunRender(const RenderArguments& arguments) {
   arguments.render.Check();
   arguments.film.Check();
   arguments.orbit.Check();
+  for (const fs::path& input : {arguments.model, arguments.photograph, arguments.view_file}) {
+    RequireOtherFile(input, arguments.out);
+  }
   if (arguments.montage.IsAsked()) {
-    return RenderMontage(arguments.montage,
+    MontageArguments montage = arguments.montage;
+    montage.montage.supersampling = arguments.render.supersampling;
+    return RenderMontage(montage,
                          arguments.common,
                          arguments.model,
                          arguments.model_arguments.Options(),
@@ -328,6 +333,20 @@ void AddRenderCommand(CLI::App& app, int& exit_status) {
       ->capture_default_str();
   AddElevationOptions(command, arguments->elevation);
   AddMontageOptions(command, arguments->montage);
+  // A montage has its photograph's view, size and background.
+  for (const char* other : {"--view",
+                            "--path",
+                            "--photo",
+                            "--elevation",
+                            "--section",
+                            "--developed",
+                            "--mode",
+                            "--background",
+                            "--edges",
+                            "--width",
+                            "--height"}) {
+    command->get_option("--over")->excludes(command->get_option(other));
+  }
   AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);
   AddExample(

@@ -32,12 +32,8 @@ void RequireNoScene(const fs::path& folder) {
                   ", where cameras would be taken for its own; give a folder of their own");
 }
 
-void RequireOtherFile(const ExchangeSource& source, const fs::path& out) {
-  for (const fs::path& file : source.files) {
-    std::error_code error;
-    if (!fs::equivalent(file, out, error) || error) continue;
-    throw Error(out, "would be written over the input itself; give another name");
-  }
+void RequireNoInput(const ExchangeSource& source, const fs::path& out) {
+  for (const fs::path& file : source.files) RequireOtherFile(file, out);
 }
 
 // A camera for the picture as it is read, and what a format makes of it.
@@ -166,7 +162,7 @@ ExchangeResult WriteCamerasAs(std::string_view format_name,
   }
   if (format->format) {
     const std::vector<FileToWrite> files = format->format(scene, out_path);
-    for (const FileToWrite& file : files) RequireOtherFile(source, file.file);
+    for (const FileToWrite& file : files) RequireNoInput(source, file.file);
     WriteFilesAtomically(files);
   } else {
     std::vector<NamedCamera> cameras;
@@ -174,7 +170,7 @@ ExchangeResult WriteCamerasAs(std::string_view format_name,
       cameras.push_back({each.image_name, each.camera});
     }
     for (const char* name : {"cameras.txt", "images.txt"}) {
-      RequireOtherFile(source, out_path / name);
+      RequireNoInput(source, out_path / name);
     }
     WriteColmapModel(out_path, cameras);
   }

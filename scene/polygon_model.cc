@@ -37,6 +37,13 @@ double ComputeFaceArea(const PolygonModel& model, int face) {
   return DoubledVectorArea(model, face).norm() / 2;
 }
 
+void ChangeUnit(LengthUnit unit, PolygonModel& model) {
+  const double scale = MetresPerUnit(model.unit) / MetresPerUnit(unit);
+  for (Eigen::Vector3d& point : model.points_in_world) point *= scale;
+  if (model.sigma) *model.sigma *= scale;
+  model.unit = unit;
+}
+
 Box ComputeBounds(const PolygonModel& model) {
   Box box;
   if (model.points_in_world.empty()) return box;

@@ -69,6 +69,9 @@ struct Box {
 };
 Box ComputeBounds(const PolygonModel& model);
 
+// The same lengths, counted in another unit.
+void ChangeUnit(LengthUnit unit, PolygonModel& model);
+
 // "face 12 (east wall)", for messages; `face` counts from 0, people from 1.
 std::string DescribeFace(const PolygonModel& model, int face);
 

@@ -170,12 +170,14 @@ ViewTag TagFromCamera(const Camera& camera, double lookat_distance) {
 namespace {
 
 // Beyond these a number was not meant: the earth's girth in millimetres, a panorama, a small part
-// of a picture, a lens that would bring the frame's corner this many frames out.
+// of a picture. Where a lens shows little, its higher coefficients are large.
 constexpr double kLargestCoordinate = 5e10;
 constexpr double kLargestAspect = 1e6;
 constexpr double kLargestShift = 100;
 constexpr double kLargestDistortion = 1e9;
+// Nor a deviation, in the model's unit and of what is about 1 or less: it says nothing.
 constexpr double kLargestLengthSigma = 1e7;
+constexpr double kLargestShareSigma = 100;
 
 std::optional<TagFault> FindDistortionFault(const ViewTag& tag) {
   for (const TagKey key : {TagKey::kK1, TagKey::kK2, TagKey::kK3, TagKey::kP1, TagKey::kP2}) {
@@ -195,7 +197,7 @@ std::string FindSigmaFault(const SigmaKey& key, double sigma) {
   if (key.member == &TagSigmas::roll_deg || key.member == &TagSigmas::view_angle_deg) largest = 360;
   if (key.member == &TagSigmas::aspect || key.member == &TagSigmas::shift ||
       key.member == &TagSigmas::k1) {
-    largest = kLargestShift;
+    largest = kLargestShareSigma;
   }
   if (sigma <= largest) return "";
   return "a standard deviation of " + FormatNumber(sigma) + " says nothing; expected " +

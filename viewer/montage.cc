@@ -3,6 +3,7 @@
 #include "viewer/montage.h"
 
 #include "scene/check_option.h"
+#include "scene/quantile.h"
 #include "scene/srgb.h"
 #include "viewer/montage_model.h"
 #include "viewer/renderer.h"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -30,6 +32,15 @@ void CheckSizes(const MontagePhotograph& photograph) {
   if (photograph.mask != nullptr) {
     check(photograph.mask->width, photograph.mask->height, "mask");
   }
+}
+
+// Faces are told apart by labels of 16 bits.
+void CheckNumFaces(const PolygonModel& model, const std::string& what) {
+  constexpr size_t kMostFaces = 65535;
+  if (model.faces.size() <= kMostFaces) return;
+  throw Error(
+      "montage: the " + what + " has " + std::to_string(model.faces.size()) +
+      " faces; no more than 65535 can be drawn: leave out what is not seen, or join triangles");
 }
 
 bool IsMasked(const MontagePhotograph& photograph, int x, int y) {
@@ -69,22 +80,21 @@ Eigen::Vector3d MedianColour(const std::vector<std::array<float, 3>>& pixels) {
     std::vector<float> channel;
     channel.reserve(pixels.size());
     for (const std::array<float, 3>& pixel : pixels) channel.push_back(pixel[c]);
-    const auto middle = channel.begin() + static_cast<std::ptrdiff_t>(channel.size() / 2);
-    std::nth_element(channel.begin(), middle, channel.end());
-    median[c] = *middle;
+    median[c] = UpperMedian(std::move(channel));
   }
   return median;
 }
 
 // Away from borders, where neighbours and errors of the model mix in.
-bool IsInside(const Image16& labels, int x, int y) {
-  constexpr int kReach = 2;
-  if (x < kReach || y < kReach || x + kReach >= labels.width || y + kReach >= labels.height) {
+bool IsInside(const Image16& labels, int x, int y, int border_px) {
+  if (x < border_px || y < border_px || x + border_px >= labels.width ||
+      y + border_px >= labels.height) {
     return false;
   }
   const uint16_t label = *labels.At(x, y);
-  return label != 0 && *labels.At(x - kReach, y) == label && *labels.At(x + kReach, y) == label &&
-         *labels.At(x, y - kReach) == label && *labels.At(x, y + kReach) == label;
+  return label != 0 && *labels.At(x - border_px, y) == label &&
+         *labels.At(x + border_px, y) == label && *labels.At(x, y - border_px) == label &&
+         *labels.At(x, y + border_px) == label;
 }
 
 // How the photograph shows each face of the building, beside how its texture and the design have
@@ -97,18 +107,21 @@ std::vector<FaceSighting> SightFaces(const MontagePhotograph& photograph,
   Renderer building_renderer(building);
   const Image16 labels = building_renderer.RenderLabels(photograph.camera);
   const Image8 texture = building_renderer.Render(photograph.camera);
-  std::vector<int> all(design.model.faces.size());
-  std::iota(all.begin(), all.end(), 0);
-  // Only faces with a colour of their own tell the light.
-  const TexturedModel shown = DesignToDraw(design, all, photograph.camera, 0);
-  Renderer design_renderer(shown);
-  const Image16 design_labels = design_renderer.RenderLabels(photograph.camera);
-  const Image8 design_picture = design_renderer.Render(photograph.camera);
+  Image16 design_labels(labels.width, labels.height, 1);
+  Image8 design_picture;
+  if (std::find(is_repeated.begin(), is_repeated.end(), true) != is_repeated.end()) {
+    std::vector<int> all(design.model.faces.size());
+    std::iota(all.begin(), all.end(), 0);
+    // Only faces with a colour of their own tell the light.
+    Renderer design_renderer(DesignToDraw(design, all, photograph.camera, 0));
+    design_labels = design_renderer.RenderLabels(photograph.camera);
+    design_picture = design_renderer.Render(photograph.camera);
+  }
 
   std::vector<FacePixels> pixels(building.model.faces.size());
   for (int y = 0; y < labels.height; ++y) {
     for (int x = 0; x < labels.width; ++x) {
-      if (!IsInside(labels, x, y) || IsMasked(photograph, x, y)) continue;
+      if (!IsInside(labels, x, y, options.border_px) || IsMasked(photograph, x, y)) continue;
       const uint8_t* code = photograph.srgb8.At(x, y);
       const auto [least, most] = std::minmax({code[0], code[1], code[2]});
       if (least < options.darkest_code || most > options.brightest_code) continue;
@@ -133,8 +146,9 @@ std::vector<FaceSighting> SightFaces(const MontagePhotograph& photograph,
     if (!building.faces.empty() && building.faces[face].page >= 0) {
       sighting.on_texture = MedianColour(found.on_texture);
     }
-    // Nearly all of it: what is in front of the face in the design tells nothing of the face.
-    if (found.in_design.size() * 10 >= found.seen.size() * 9) {
+    // What is in front of the face in the design tells nothing of the face.
+    if (static_cast<double>(found.in_design.size()) >=
+        options.least_in_design * static_cast<double>(found.seen.size())) {
       sighting.in_design = MedianColour(found.in_design);
     }
   }
@@ -152,23 +166,24 @@ Layers DrawLayers(const MontagePhotograph& photograph,
                   const TexturedModel& building,
                   const TexturedModel& to_draw,
                   const MontageLight& light,
+                  double same_place,
                   const MontageOptions& options,
                   std::vector<std::string>& warnings) {
   RenderOptions render;
   render.background = Background::kTransparent;
   render.supersampling = options.supersampling;
-  const auto draw = [&](const TexturedModel& model) {
-    Renderer renderer(
-        HiddenByBuilding(model, building.model, photograph.camera, options.same_place_share));
-    warnings.insert(warnings.end(), renderer.Warnings().begin(), renderer.Warnings().end());
-    return renderer.Render(photograph.camera, render);
+  const auto hidden = [&](TexturedModel model) {
+    return HiddenByBuilding(std::move(model), building.model, photograph.camera, same_place);
   };
   Layers layers;
   layers.light_scale = std::max(1e-6, BrightestLight(to_draw, light));
-  layers.albedo = draw(to_draw);
+  Renderer renderer(hidden(to_draw));
+  warnings = renderer.Warnings();
+  layers.albedo = renderer.Render(photograph.camera, render);
   // One value for each face: nothing to be sought along the line of sight.
   render.anisotropy = 1;
-  layers.light = draw(LightToDraw(to_draw, light, layers.light_scale));
+  layers.light = Renderer(hidden(LightToDraw(to_draw, light, layers.light_scale)))
+                     .Render(photograph.camera, render);
   return layers;
 }
 
@@ -245,9 +260,11 @@ Montage DrawMontage(const MontagePhotograph& photograph,
                     const MontageOptions& options) {
   options.Check();
   CheckSizes(photograph);
-  const double size = ComputeBounds(building.model).Diagonal();
+  CheckNumFaces(building.model, "building");
+  CheckNumFaces(design.model, "design");
+  const double same_place = options.same_place_share * ComputeBounds(building.model).Diagonal();
   const std::vector<bool> is_repeated =
-      FindRepeatedFaces(design.model, Visibility(building.model), options.same_place_share * size);
+      FindRepeatedFaces(design.model, Visibility(building.model), same_place);
   const std::vector<int> faces = ChooseFaces(design.model, is_repeated, options.new_parts_only);
 
   Montage montage;
@@ -261,8 +278,8 @@ Montage DrawMontage(const MontagePhotograph& photograph,
 
   const TexturedModel to_draw =
       DesignToDraw(design, faces, photograph.camera, options.plain_albedo);
-  const Layers layers =
-      DrawLayers(photograph, building, to_draw, montage.light, options, montage.warnings);
+  const Layers layers = DrawLayers(
+      photograph, building, to_draw, montage.light, same_place, options, montage.warnings);
   ImageF layer = LayerOf(photograph, layers);
   Blur(options.blur_px, layer);
   Compose(photograph, layer, grain, montage);

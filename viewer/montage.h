@@ -17,7 +17,8 @@ struct MontageOptions {
   // Leaves out the design's faces that lie on the building's: a design is often the building as it
   // stands with something added. Off, they are drawn too, over the photograph's.
   bool new_parts_only = false;
-  // Faces lie on one another that are no farther apart than this share of the building's size.
+  // Faces lie on one another, so that the design's is not hidden, that are no farther apart than
+  // this share of the building's size.
   double same_place_share = 0.002;
   // Brighter or darker by hand, stops, on top of what the photograph tells.
   double exposure_stops = 0;

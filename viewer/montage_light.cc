@@ -174,7 +174,9 @@ std::vector<Ratio> WithoutMaterials(const std::vector<Ratio>& ratios,
 
 void MontageLightOptions::Check() const {
   CheckAtLeast(least_pixels, 1, "montage light options: least_pixels");
-  CheckFromTo(darkest_code, 0, 254, "montage light options: darkest_code");
+  CheckFromTo(border_px, 0, 100, "montage light options: border_px");
+  CheckAbove(least_in_design, 0, "montage light options: least_in_design");
+  CheckFromTo(darkest_code, 1, 254, "montage light options: darkest_code");
   CheckFromTo(brightest_code, 1, 255, "montage light options: brightest_code");
   CheckFromTo(bright_share, 0, 1, "montage light options: bright_share");
   CheckFromTo(bright_albedo, 0.01, 1, "montage light options: bright_albedo");

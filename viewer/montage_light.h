@@ -15,6 +15,10 @@ struct MontageLightOptions {
   // Codes of the photograph below and above tell nothing: black and burnt out.
   int darkest_code = 8;
   int brightest_code = 247;
+  // Nearer to a face's border than this neighbours and errors of the model mix in, px.
+  int border_px = 2;
+  // A face that the design repeats tells of it where it shows at least this share of what is seen.
+  double least_in_design = 0.9;
   // Where nobody says what the building reflects: of its surface that is seen this share reflects
   // less than bright_albedo, and the rest more. Dark materials differ by their multiples (slate
   // 0.1, brick 0.15 to 0.3), light ones hardly (stone, concrete, render 0.4 to 0.7).

@@ -107,22 +107,21 @@ TexturedModel LightToDraw(const TexturedModel& design_to_draw,
   return drawn;
 }
 
-TexturedModel HiddenByBuilding(const TexturedModel& to_draw,
+TexturedModel HiddenByBuilding(TexturedModel to_draw,
                                const PolygonModel& building,
                                const Camera& camera,
                                double farther) {
-  TexturedModel both = to_draw;
-  const int first = static_cast<int>(both.model.points_in_world.size());
+  const int first = static_cast<int>(to_draw.model.points_in_world.size());
   const Eigen::Vector3d eye = camera.PositionInWorld();
   for (const Eigen::Vector3d& point : building.points_in_world) {
-    both.model.points_in_world.push_back(eye + (1 + farther) * (point - eye));
+    to_draw.model.points_in_world.push_back(point + farther * (point - eye).normalized());
   }
   for (Face face : building.faces) {
     for (int& point : face.points) point += first;
-    both.model.faces.push_back(std::move(face));
-    both.faces.emplace_back().page = kHidingPage;
+    to_draw.model.faces.push_back(std::move(face));
+    to_draw.faces.emplace_back().page = kHidingPage;
   }
-  return both;
+  return to_draw;
 }
 
 }  // namespace groundglass

@@ -33,10 +33,10 @@ TexturedModel LightToDraw(const TexturedModel& design_to_draw,
 // The most light in any channel that any of the faces gets.
 double BrightestLight(const TexturedModel& design_to_draw, const MontageLight& light);
 
-// Puts the building before it, not to be drawn but to hide (kHidingPage). It is moved away from
-// the camera by `farther`, a share of its distance, along the lines of sight: it looks the same,
-// and what lies on it is in front of it.
-TexturedModel HiddenByBuilding(const TexturedModel& to_draw,
+// Puts the building beside it, not to be drawn but to hide (kHidingPage). It is moved away from
+// the camera by `farther`, the model's unit, along the lines of sight: it looks the same, and what
+// lies on it is in front of it.
+TexturedModel HiddenByBuilding(TexturedModel to_draw,
                                const PolygonModel& building,
                                const Camera& camera,
                                double farther);

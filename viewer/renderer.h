@@ -22,8 +22,8 @@ enum class DrawMode {
   kLabels,     // each face in a colour of its own, with its number from 1
 };
 
-// FaceTexture::page of a face that is not drawn, from either side, and hides what is behind it: the
-// picture there is as if nothing were in front of the background.
+// FaceTexture::page of a face that is not drawn, from either side, and hides what is behind it; for
+// Background::kTransparent, where the picture has alpha 0 there (any other is black).
 constexpr int kHidingPage = -2;
 
 enum class Background {

@@ -118,6 +118,12 @@ bool IsTemporaryName(const fs::path& file) {
   return at == name.size() || (name[at] == '.' && name.find('.', at + 1) == std::string::npos);
 }
 
+void RequireOtherFile(const fs::path& input, const fs::path& output) {
+  std::error_code error;
+  if (!fs::equivalent(input, output, error) || error) return;
+  throw Error(output, "would be written over the input itself; give another name");
+}
+
 void WriteFileAtomically(const fs::path& file, std::string_view bytes) {
   StreamFileAtomically(file, [&](const ByteSink& append) { append(bytes); });
 }

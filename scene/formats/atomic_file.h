@@ -16,6 +16,9 @@ namespace groundglass {
 
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes);
 
+// Throws Error if both are one file: what is read is never written over.
+void RequireOtherFile(const std::filesystem::path& input, const std::filesystem::path& output);
+
 // Files that are of use together only: none takes its place before every byte of all of them is on
 // the disk.
 struct FileToWrite {

@@ -41,14 +41,6 @@ std::string ListRanges(const std::vector<int>& numbers) {
   return list;
 }
 
-// The same lengths, counted in another unit.
-void ChangeUnit(LengthUnit unit, PolygonModel& model) {
-  const double scale = MetresPerUnit(model.unit) / MetresPerUnit(unit);
-  for (Eigen::Vector3d& point : model.points_in_world) point *= scale;
-  if (model.sigma) *model.sigma *= scale;
-  model.unit = unit;
-}
-
 // Those of a folder, in the order in which people count; none if it is no folder.
 std::vector<fs::path> ListViewFiles(const fs::path& folder) {
   std::vector<fs::path> views;
@@ -74,9 +66,7 @@ ConvertResult ConvertModel(const fs::path& input,
     (void)ReadModel(input, options);
     throw Error(output, "a model is written as .osu, .obj or .glb");
   }
-  if (std::error_code error; fs::equivalent(input, output, error) && !error) {
-    throw Error(output, "would be written over the input itself; give another name");
-  }
+  RequireOtherFile(input, output);
   ConvertResult result;
   TexturedModelReading reading = ReadTexturedModel(input, options, to != ".osu");
   result.warnings = std::move(reading.warnings);

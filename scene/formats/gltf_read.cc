@@ -227,7 +227,11 @@ class GltfReader {
     if (material < 0) return std::nullopt;
     const tinygltf::Material& found = At(gltf_.materials, material, "material");
     const std::vector<double>& factor = found.pbrMetallicRoughness.baseColorFactor;
-    if (found.name == kNoPhotographMaterial || factor.size() < 3) return std::nullopt;
+    // One that is to have a picture stays grey without it.
+    const bool has_picture = found.pbrMetallicRoughness.baseColorTexture.index >= 0;
+    if (has_picture || found.name == kNoPhotographMaterial || factor.size() < 3) {
+      return std::nullopt;
+    }
     std::array<float, 3> linear = {};
     for (size_t c = 0; c < linear.size(); ++c) linear[c] = static_cast<float>(factor[c]);
     return linear;

@@ -59,7 +59,11 @@ class ObjTexturer {
     for (size_t i = 0; i < obj_.materials.size(); ++i) {
       FaceTexture& face = reading_.textured.faces[i];
       const auto material = materials_.find(obj_.materials[i]);
-      if (face.page >= 0 || material == materials_.end() || !material->second.colour) continue;
+      // One that is to have a picture stays grey without it.
+      if (face.page >= 0 || material == materials_.end() || !material->second.picture.empty() ||
+          !material->second.colour) {
+        continue;
+      }
       face = colours.Add(
           *material->second.colour, page, reading_.textured.model.faces[i].points.size());
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
-#include "scene/formats/coloured_model_io.h"
 #include "scene/formats/image_io.h"
 #include "scene/reduce.h"
 #include "tests/cli/program.h"
@@ -78,31 +77,24 @@ TEST_F(MontageOfBrick, WhatIsMissingIsNamed) {
   EXPECT_THAT(Run({"--over", "s6", "--exposure", "11"}).err, HasSubstr("--exposure"));
 }
 
-TEST_F(MontageOfBrick, PlainColoursOfMaterialsAreReadAndTheMarkOfNoPhotographIsNone) {
-  const TexturedModel design = ReadColouredModel(folder_ / "wall.obj").textured;
-  ASSERT_EQ(design.faces.size(), 2);
-  ASSERT_EQ(design.faces[0].page, 0);
-  EXPECT_EQ(design.faces[1].page, -1);
-  // Kd is taken as sRGB: 0.8 and 0.2 of 255.
-  EXPECT_EQ(*design.pages[0].srgb8.At(0, 0), 204);
-  EXPECT_EQ(design.pages[0].srgb8.At(0, 0)[1], 51);
-  EXPECT_TRUE(ReadTexturedModel(folder_ / "wall.obj").textured.pages.empty());
+TEST_F(MontageOfBrick, NothingThatIsReadIsWrittenOver) {
+  const std::string photograph = folder_ / "hall/images/s6.png";
+  const ProgramRun over_photograph = RunProgram({"render",
+                                                 folder_ / "hall",
+                                                 "--model",
+                                                 folder_ / "wall.obj",
+                                                 "--over",
+                                                 photograph,
+                                                 "-o",
+                                                 photograph});
+  EXPECT_EQ(over_photograph.status, 1);
+  EXPECT_THAT(over_photograph.err, HasSubstr("would be written over the input itself"));
+  EXPECT_EQ(ReadSrgb8(photograph).values, photograph_.values);
+}
 
-  // A glTF's factor is linear light.
-  folder_.Write(
-      "wall.gltf",
-      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
-"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
-"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.2,0.1,1]}}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
-"min":[0,0,0],"max":[2,1,0]}],
-"bufferViews":[{"buffer":0,"byteLength":36}],
-"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAQAAAgD8AAAAA"}]})");
-  const TexturedModel linear = ReadColouredModel(folder_ / "wall.gltf").textured;
-  ASSERT_EQ(linear.pages.size(), 1);
-  EXPECT_EQ(linear.faces[0].page, 0);
-  EXPECT_EQ(*linear.pages[0].srgb8.At(0, 0), 188);
-  EXPECT_EQ(linear.pages[0].srgb8.At(0, 0)[2], 89);
+TEST_F(MontageOfBrick, OptionsOfOtherDrawingsAreNoneOfItsOwn) {
+  EXPECT_EQ(Run({"--over", "s6", "--mode", "shaded"}).status, 2);
+  EXPECT_EQ(Run({"--over", "s6", "--view", folder_ / "hall/views/s6.view"}).status, 2);
 }
 
 }  // namespace

@@ -112,9 +112,9 @@ class ProgramServer : public testing::Environment {
   pid_t server_ = -1;
 };
 
-ProgramServer* const program_server = new ProgramServer;
-const testing::Environment* const registered_server =
-    testing::AddGlobalTestEnvironment(program_server);
+ProgramServer* const kProgramServer = new ProgramServer;
+const testing::Environment* const kRegisteredServer =
+    testing::AddGlobalTestEnvironment(kProgramServer);
 
 }  // namespace
 
@@ -123,7 +123,7 @@ ProgramRun RunProgram(const std::vector<std::string>& arguments) {
   std::string bytes = std::string("groundglass") + '\0';
   for (const std::string& argument : arguments) bytes += argument + '\0';
   WriteAll(work / "arguments", bytes);
-  const int status = program_server->Run(work.path());
+  const int status = kProgramServer->Run(work.path());
   return {
       WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadAll(work / "out"), ReadAll(work / "err")};
 }

@@ -6,6 +6,7 @@
 #include "scene/error.h"
 #include "scene/srgb.h"
 #include "scene/visibility.h"
+#include "tests/viewer/montage_samples.h"
 #include "tests/viewer/sample_models.h"
 #include "viewer/montage_model.h"
 
@@ -15,8 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <random>
 
 namespace groundglass {
 namespace {
@@ -72,14 +71,6 @@ Camera BentCamera() {
   camera.focal_y_px *= 1.03;
   camera.k1 = -0.12;
   return camera;
-}
-
-MontageLight LowSun() {
-  MontageLight light;
-  light.gain = {0.8, 0.7, 0.6};
-  light.average = 0.9;
-  light.direction_in_world = {0.25, -0.3, 0.2};
-  return light;
 }
 
 // By rays, side x side of them in each pixel: the picture of a model in a light on an even ground,
@@ -239,117 +230,17 @@ TEST(Montage, WhatCannotBeDrawnIsNamed) {
   EXPECT_THAT(message(small, false), HasSubstr("is for a picture of 240 x 160"));
   const Image8 photograph = MakePlainPage(camera.width_px, camera.height_px, 90, 90, 90);
   EXPECT_THAT(message(photograph, true), HasSubstr("has no new parts"));
-}
-
-// Sightings of walls that look these ways, and of a roof.
-std::vector<FaceSighting> SightWalls(const std::vector<double>& bearings_deg,
-                                     const MontageLight& light,
-                                     const std::function<double(int)>& albedo) {
-  std::vector<Eigen::Vector3d> normals = {Eigen::Vector3d::UnitZ()};
-  for (const double bearing_deg : bearings_deg) {
-    const double bearing = RadiansFromDegrees(bearing_deg);
-    normals.emplace_back(std::sin(bearing), std::cos(bearing), 0);
+  // Labels of faces have 16 bits.
+  TexturedModel many = Hall();
+  const Face face = many.model.faces.front();
+  many.model.faces.resize(70000, face);
+  many.faces.resize(70000, many.faces.front());
+  try {
+    DrawMontage({photograph, nullptr, camera}, Hall(), many);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the design has 70000 faces"));
   }
-  std::vector<FaceSighting> faces;
-  for (size_t i = 0; i < normals.size(); ++i) {
-    FaceSighting& face = faces.emplace_back();
-    face.normal_in_world = normals[i];
-    face.num_pixels = 2000;
-    face.seen = albedo(static_cast<int>(i)) * light.On(normals[i]);
-  }
-  return faces;
-}
-
-TEST(MontageLight, ComesBackFromFacesOfKnownColour) {
-  std::vector<FaceSighting> faces =
-      SightWalls({10, 100, 190, 280}, LowSun(), [](int i) { return 0.2 + 0.1 * i; });
-  for (size_t i = 0; i < faces.size(); ++i) {
-    faces[i].in_design = Eigen::Vector3d::Constant(0.2 + 0.1 * static_cast<double>(i));
-  }
-  // One of them was painted since.
-  faces[2].seen *= 2.2;
-  const MontageLight found = FitMontageLight(faces, {});
-  EXPECT_EQ(found.source, LightSource::kDesign);
-  EXPECT_EQ(found.num_faces, 5);
-  for (size_t i = 0; i < faces.size(); ++i) {
-    if (i == 2) continue;
-    const Eigen::Vector3d truth = LowSun().On(faces[i].normal_in_world);
-    EXPECT_LT((found.On(faces[i].normal_in_world) - truth).norm() / truth.norm(), 0.12) << i;
-  }
-}
-
-TEST(MontageLight, OfABuildingOfUnknownColourHasItsSunnySideAndAnExposure) {
-  std::mt19937 random(7);
-  std::normal_distribution<double> spread(0, 0.25);
-  std::vector<double> bearings;
-  for (int i = 0; i < 24; ++i) bearings.push_back(15.0 * i);
-  const MontageLight light = LowSun();
-  std::vector<FaceSighting> faces =
-      SightWalls(bearings, light, [&](int) { return 0.35 * std::exp(spread(random)); });
-  for (int i = 0; i < 5; ++i) faces[5 * i].seen *= 0.5 / 0.35;
-  const MontageLight found = FitMontageLight(faces, {});
-  EXPECT_EQ(found.source, LightSource::kBuilding);
-  const Eigen::Vector2d towards = found.direction_in_world.head<2>().normalized();
-  EXPECT_GT(towards.dot(light.direction_in_world.head<2>().normalized()), 0.9);
-  const double level = found.On(Eigen::Vector3d::UnitY()).mean();
-  EXPECT_NEAR(level / light.On(Eigen::Vector3d::UnitY()).mean(), 1, 0.25);
-  // Grey where no texture tells the photograph's cast; with one, as the texture says.
-  EXPECT_NEAR(found.gain[0], found.gain[2], 1e-9);
-  for (FaceSighting& face : faces) {
-    face.on_texture = face.seen.cwiseQuotient(Eigen::Vector3d(1.2, 1, 0.9));
-  }
-  const MontageLight tinted = FitMontageLight(faces, {});
-  EXPECT_NEAR(tinted.gain[0] / tinted.gain[1], 1.2, 1e-6);
-  EXPECT_NEAR(tinted.gain[2] / tinted.gain[1], 0.9, 1e-6);
-}
-
-TEST(MontageLight, OneWallSaysNothingOfTheOthers) {
-  const std::vector<FaceSighting> faces = SightWalls({180}, LowSun(), [](int) { return 0.35; });
-  const MontageLight found = FitMontageLight({faces.back()}, {});
-  const double east = found.On(Eigen::Vector3d::UnitX()).mean();
-  const double west = found.On(-Eigen::Vector3d::UnitX()).mean();
-  EXPECT_NEAR(east, west, 1e-9);
-  EXPECT_EQ(FitMontageLight({}, {}).source, LightSource::kAssumed);
-}
-
-// An even picture with structure in its lower half, and grain of this deviation.
-Image8 GrainyPicture(double sigma, uint64_t seed) {
-  std::mt19937 random(seed);
-  std::normal_distribution<double> grain(0, sigma);
-  Image8 picture(360, 240, 3);
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const double structure = y > 140 && (x / 5 + y / 7) % 2 == 0 ? 40 : 0;
-      const double shared = grain(random);
-      for (int c = 0; c < 3; ++c) {
-        picture.At(x, y)[c] =
-            static_cast<uint8_t>(std::clamp(120 + structure + shared, 0.0, 255.0) + 0.5);
-      }
-    }
-  }
-  return picture;
-}
-
-TEST(PhotoGrain, IsMeasuredWhereThePictureIsCalmAndLaidAsStrong) {
-  for (const double sigma : {2.0, 6.0}) {
-    const PhotoGrain grain = MeasurePhotoGrain(GrainyPicture(sigma, 3), {});
-    // The blur leaves a few percent of white noise, and the calmest squares have a little less.
-    EXPECT_NEAR(grain.SigmaAt(120), sigma, 0.15 * sigma);
-    const ImageF laid = LayGrain(grain, 301, 203, 5);
-    double sum = 0;
-    double neighbours = 0;
-    for (int y = 0; y < laid.height; ++y) {
-      for (int x = 0; x + 1 < laid.width; ++x) {
-        sum += laid.At(x, y)[1] * laid.At(x, y)[1];
-        neighbours += laid.At(x, y)[1] * laid.At(x + 1, y)[1];
-      }
-    }
-    const double count = laid.height * (laid.width - 1.0);
-    EXPECT_NEAR(std::sqrt(sum / count), 1, 0.1);
-    EXPECT_LT(std::abs(neighbours / count), 0.15) << "white noise stays white";
-    EXPECT_EQ(laid.values, LayGrain(grain, 301, 203, 5).values);
-  }
-  EXPECT_EQ(MeasurePhotoGrain(MakePlainPage(100, 100, 80, 80, 80), {}).SigmaAt(80), 0);
 }
 
 TEST(Montage, TheDesignHasThePhotographsGrain) {

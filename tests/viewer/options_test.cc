@@ -44,11 +44,13 @@ TEST(ViewerOptions, CheckNamesEachField) {
       {"least_pixels", [](auto& o) { o.light.least_pixels = 0; }},
       {"most_squares", [](auto& o) { o.photo_grain.most_squares = 0; }},
   });
-  [[maybe_unused]] const auto& [l1, l2, l3, l4, l5, l6, l7, l8, l9, l10, l11] =
+  [[maybe_unused]] const auto& [l1, l2, l3, l4, l5, l6, l7, l8, l9, l10, l11, l12, l13] =
       MontageLightOptions();
   ExpectCheckNamesEach<MontageLightOptions>({
       {"least_pixels", [](auto& o) { o.least_pixels = 0; }},
-      {"darkest_code", [](auto& o) { o.darkest_code = -1; }},
+      {"border_px", [](auto& o) { o.border_px = -1; }},
+      {"least_in_design", [](auto& o) { o.least_in_design = 0; }},
+      {"darkest_code", [](auto& o) { o.darkest_code = 0; }},
       {"brightest_code", [](auto& o) { o.brightest_code = 256; }},
       {"bright_share", [](auto& o) { o.bright_share = 2; }},
       {"bright_albedo", [](auto& o) { o.bright_albedo = 0; }},
