@@ -79,6 +79,11 @@ void Detect(const Image8& srgb_grey,
 
 }  // namespace
 
+bool HasCoarseDetail(int width_px) {
+  return Decimation(width_px, AprilTagDetail::kCoarse) >
+         Decimation(width_px, AprilTagDetail::kFine);
+}
+
 std::vector<AprilTagDetection> DetectAprilTags(const Image8& srgb_grey, AprilTagDetail detail) {
   const FamilyPtr narrow = MakeFamily(1);
   const FamilyPtr wide = MakeFamily(2);

@@ -23,6 +23,9 @@ struct AprilTagDetection {
 // which takes a quarter of the time in a photograph of 12 megapixels.
 enum class AprilTagDetail { kFine, kCoarse };
 
+// Whether the two differ for pictures of this width.
+bool HasCoarseDetail(int width_px);
+
 // Finds AprilTags with borders of one and two cells in 8-bit sRGB grey, sorted by id. An id that is
 // seen twice is left out, since nobody can tell which one is meant. Corners are good to a few
 // tenths of a pixel.

@@ -223,7 +223,10 @@ std::vector<std::vector<AprilTagDetection>> DetectAll(std::span<const BoardPhoto
   std::vector<std::vector<AprilTagDetection>> detections(photographs.size());
   tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
     detections[i] = DetectAprilTags(photographs[i].srgb_grey, AprilTagDetail::kCoarse);
-    if (static_cast<double>(detections[i].size()) >= enough) return;
+    if (static_cast<double>(detections[i].size()) >= enough ||
+        !HasCoarseDetail(photographs[i].srgb_grey.width)) {
+      return;
+    }
     detections[i] = DetectAprilTags(photographs[i].srgb_grey);
   });
   return detections;
