@@ -62,12 +62,15 @@ std::string SmallGlb(const fs::path& folder, size_t max_bytes) {
   return bytes;
 }
 
-// Empty too if what they are made of is damaged: the model is there without them.
-std::string ModesOf(const fs::path& folder, size_t max_bytes) {
+// The model is there without them if what they are made of is damaged, and the page says why.
+void AddModes(const fs::path& folder, size_t max_bytes, mustache::data& turned) {
+  turned["modes"] = false;
+  turned["modes_fault"] = false;
   try {
-    return ModelModesJson(folder, max_bytes);
-  } catch (const Error&) {
-    return "";
+    const std::string modes = ModelModesJson(folder, max_bytes);
+    if (!modes.empty()) turned["modes"] = mustache::data("json", modes);
+  } catch (const Error& error) {
+    turned["modes_fault"] = mustache::data("text", error.what());
   }
 }
 
@@ -85,9 +88,7 @@ mustache::data ModelData(const ReportInput& input) {
     mustache::data turned;
     turned["glb"] = EncodeBase64({reinterpret_cast<const uint8_t*>(glb.data()), glb.size()});
     turned["script"] = kModelScript;
-    const std::string modes = ModesOf(input.folder, static_cast<size_t>(kModesShare * max_bytes));
-    turned["modes"] = false;
-    if (!modes.empty()) turned["modes"] = mustache::data("json", modes);
+    AddModes(input.folder, static_cast<size_t>(kModesShare * max_bytes), turned);
     data["turned"] = std::move(turned);
   } catch (const Error&) {
     // A model that cannot be read is told by the stage that made it; the page goes without.
