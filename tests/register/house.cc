@@ -62,7 +62,8 @@ Image8 PhotographModel(const PolygonModel& model,
     for (int x = 0; x < camera.width_px; ++x) {
       float light = 0;
       for (int ray = 0; ray < kRays * kRays; ++ray) {
-        const Eigen::Vector2d at(x + (ray % kRays + 0.5) / kRays, y + (ray / kRays + 0.5) / kRays);
+        const int row = ray / kRays;
+        const Eigen::Vector2d at(x + (ray % kRays + 0.5) / kRays, y + (row + 0.5) / kRays);
         const auto hit = visibility.FirstHit(position, UnprojectToWorld(camera, at));
         const int code = hit ? 40 + 29 * (hit->face * 5 % 6) : 225;
         light += LinearFromSrgb(static_cast<float>(code) / 255);

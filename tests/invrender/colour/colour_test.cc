@@ -77,7 +77,8 @@ TEST(MatchColour, VignettingIsFoundFromOverlaps) {
   const int wall = AddWall(model, 0, 60, 0, 30);
   std::vector<BakePhotograph> photographs;
   for (int i = 0; i < 6; ++i) {
-    const Eigen::Vector3d target(12 + 18.0 * (i % 3), 0, 9 + 12.0 * (i / 3));
+    const int row = i / 3;
+    const Eigen::Vector3d target(12 + 18.0 * (i % 3), 0, 9 + 12.0 * row);
     const Camera camera = LookAt(target - Eigen::Vector3d(0, 30, 0), target, 320, 200, 260);
     photographs.push_back(PhotographPainted(
         model,

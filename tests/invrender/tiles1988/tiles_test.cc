@@ -48,8 +48,9 @@ TEST(MakeTiles, PhotographOf500By400Gives499By399) {
   ASSERT_EQ(tiles.size(), 499u * 399u);
   // Each corner lies on the wall, on its pixel's line of sight, and has the wall's colour there.
   for (size_t i = 0; i < tiles.size(); i += 997) {
+    const size_t row = i / 499;
     const auto x = static_cast<double>(i % 499);
-    const auto y = static_cast<double>(i / 499);
+    const auto y = static_cast<double>(row);
     const Eigen::Vector2d steps[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     for (int c = 0; c < 4; ++c) {
       const TileCorner& corner = tiles[i].corners[c];
@@ -149,9 +150,9 @@ TEST(TileFile, ComesBackAsItWasWritten) {
 TEST(TileFile, SaysWhatIsWrongWithAFile) {
   const TemporaryFolder folder;
   std::ofstream(folder / "half.tiles") << "not a tile";
-  EXPECT_THAT(ThrownMessage([&] { MappedTiles(folder / "half.tiles"); }),
+  EXPECT_THAT(ThrownMessage([&] { const MappedTiles tiles(folder / "half.tiles"); }),
               testing::HasSubstr("10 bytes are no whole number of tiles of 96"));
-  EXPECT_THAT(ThrownMessage([&] { MappedTiles(folder / "none.tiles"); }),
+  EXPECT_THAT(ThrownMessage([&] { const MappedTiles tiles(folder / "none.tiles"); }),
               testing::HasSubstr("none.tiles: cannot read this as a file of tiles"));
   std::ofstream(folder / "empty.tiles");
   EXPECT_TRUE(MappedTiles(folder / "empty.tiles").Tiles().empty());

@@ -20,7 +20,8 @@ Image8 StepImage(const Eigen::Vector2d& normal, double offset_px) {
     for (int x = 0; x < image.width; ++x) {
       double bright = 0;
       for (int i = 0; i < 64; ++i) {
-        const Eigen::Vector2d at(x + (i % 8 + 0.5) / 8, y + (i / 8 + 0.5) / 8);
+        const int row = i / 8;
+        const Eigen::Vector2d at(x + (i % 8 + 0.5) / 8, y + (row + 0.5) / 8);
         bright += normal.dot(at) > offset_px;
       }
       const double light =
