@@ -180,7 +180,7 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   const Solution& best = reading.solutions.front();
   const Refinement& refined = best.refinement;
   const Rival rival = FindRival(readings, options.solutions);
-  FillRegistration({refined.whitened, refined.covariance, refined.num_matched, refined.spread},
+  FillRegistration({refined.whitened, refined.covariance, refined.num_matched, refined.residuals},
                    reading.prior,
                    edge_model.model,
                    PointsOf(refined.samples),

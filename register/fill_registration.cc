@@ -11,6 +11,9 @@ namespace groundglass {
 
 namespace {
 
+// As many as can be told apart where they are drawn ten times enlarged.
+constexpr double kResidualPiece_widths = 0.04;
+
 double VertexSigmaPx(const PolygonModel& model,
                      const ParameterProjection& projection,
                      const CameraCovariance& covariance,
@@ -46,10 +49,12 @@ void FillRegistration(const JointSolution& solution,
   registration.num_samples = solution.num_matched;
   registration.rms_px.reset();
   registration.robust_sigma_px.reset();
-  if (solution.spread) {
-    registration.rms_px = solution.spread->rms_px * to_photograph;
-    registration.robust_sigma_px = solution.spread->robust_sigma_px * to_photograph;
+  if (const std::optional<ResidualSpread> spread = SpreadOf(solution.residuals)) {
+    registration.rms_px = spread->rms_px * to_photograph;
+    registration.robust_sigma_px = spread->robust_sigma_px * to_photograph;
   }
+  registration.residuals =
+      MeanResiduals(solution.residuals, kResidualPiece_widths * prior.width_px, to_photograph);
   registration.moved_px =
       to_photograph *
       MeanDisplacementPx(points_in_world, prior.ProjectionAt(CameraParameters::Zero()), projection);

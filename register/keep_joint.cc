@@ -63,9 +63,9 @@ Json JsonOfFound(const JointStage& stage, size_t index) {
                {"camera", JsonOfCamera(prior, solution.whitened)},
                {"sigmas", JsonOfNumbers(covariance.diagonal().cwiseMax(0).cwiseSqrt())},
                {"matched", solution.num_matched}};
-  if (solution.spread) {
-    json["rms_px"] = solution.spread->rms_px * ToPhotograph(stage, index);
-    json["robust_sigma_px"] = solution.spread->robust_sigma_px * ToPhotograph(stage, index);
+  if (const std::optional<ResidualSpread> spread = SpreadOf(solution.residuals)) {
+    json["rms_px"] = spread->rms_px * ToPhotograph(stage, index);
+    json["robust_sigma_px"] = spread->robust_sigma_px * ToPhotograph(stage, index);
   }
   return json;
 }

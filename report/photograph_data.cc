@@ -37,6 +37,9 @@ constexpr std::array<ParameterWords, kNumCameraParameters> kParameterWords = {{
     {"lens distortion (k1)", " "},
 }};
 
+// As tables of adjustments draw them; said in the template too.
+constexpr double kResidualsEnlarged = 10;
+
 // A misfit that there may not be.
 std::string PixelsOf(const std::optional<double>& px) {
   return px ? FormatRounded(*px, 0.1) : kNoNumber;
@@ -72,7 +75,20 @@ std::string EdgePath(const std::vector<std::vector<Eigen::Vector2d>>& lines) {
   return path;
 }
 
-// The photograph, and over it the edges as measured and as corrected; false without scene.
+// From each piece of a corrected edge to the photograph's, kResidualsEnlarged times as far, as an
+// SVG path; its place and length in a picture of another size. Empty if the registration has none.
+std::string ResidualPath(const Registration& registration, int width_px) {
+  const double scale = static_cast<double>(width_px) / registration.width_px;
+  std::vector<std::vector<Eigen::Vector2d>> lines;
+  for (const EdgeResidual& residual : registration.residuals) {
+    const Eigen::Vector2d start_px = scale * residual.image_px;
+    lines.push_back({start_px, start_px + kResidualsEnlarged * scale * residual.offset_px});
+  }
+  return EdgePath(lines);
+}
+
+// The photograph, and over it the edges as measured and as corrected, and what the corrected ones
+// still miss the photograph's by; false without scene.
 mustache::data WipeData(const Registration& registration, const ReportInput& input) {
   const ReportOptions& options = input.options;
   const Photograph* photograph = input.scene && options.find_edges
@@ -88,8 +104,11 @@ mustache::data WipeData(const Registration& registration, const ReportInput& inp
   };
   wipe["measured"] = path(registration.MeasuredCamera());
   wipe["corrected"] = false;
+  wipe["residuals"] = false;
   if (HasCorrection(registration.verdict)) {
     wipe["corrected"] = mustache::data("path", path(registration.CorrectedCamera()));
+    const std::string residuals = ResidualPath(registration, width_px);
+    if (!residuals.empty()) wipe["residuals"] = mustache::data("path", residuals);
   }
   return wipe;
 }

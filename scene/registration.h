@@ -59,6 +59,12 @@ std::string_view VerdictName(Verdict verdict);
 // Whether a camera was found that is used: accepted, or review.
 inline bool HasCorrection(Verdict verdict) { return verdict < Verdict::kRejected; }
 
+// A piece of a model edge, and the photograph's edge that it was matched with.
+struct EdgeResidual {
+  Eigen::Vector2d image_px = Eigen::Vector2d::Zero();   // where the corrected camera sees the piece
+  Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();  // from there to the photograph's, across it
+};
+
 // What became of one photograph. Of an unreadable one there are name and reasons, and nothing else
 // that counts.
 struct Registration {
@@ -80,6 +86,7 @@ struct Registration {
   // where nothing is matched.
   std::optional<double> rms_px;
   std::optional<double> robust_sigma_px;
+  std::vector<EdgeResidual> residuals;
   double score_nats = 0;              // above zero: better than chance
   std::optional<double> margin_nats;  // over the second-best camera; nothing if there is none
   // What other photographs say of the camera: patches of faces sought in them, and found where the

@@ -3,7 +3,6 @@
 #include "register/joint/joint_covariance.h"
 
 #include "register/edges/edge_clusters.h"
-#include "register/edges/residual_spread.h"
 #include "register/joint/covariance_excess.h"
 #include "register/joint/normal_equations.h"
 #include "register/refine/systematic_error.h"
@@ -96,22 +95,17 @@ Eigen::SparseMatrix<double> InformationOf(const NormalEquations& equations,
   return equations.InformationOf(rows);
 }
 
-// How a photograph's matched samples scatter about the model's edges as the model has them.
-std::optional<ResidualSpread> SpreadOf(size_t p, const JointState& state) {
+// A photograph's matched samples, as its camera sees them, from the model's edges as the model has
+// them.
+std::vector<SampleResidual> ResidualsOfPhotograph(size_t p, const JointState& state) {
   const ParameterProjection projection = state.ProjectionOf(state.moving[p]);
-  std::vector<WeightedValue> residuals;
+  std::vector<SampleResidual> residuals;
   for (const MatchedRun& run : state.runs) {
     if (run.photograph != p) continue;
-    for (const AlignedSample& sample : run.samples) {
-      const auto projected = projection.Project(sample.point_in_world);
-      if (!projected) continue;
-      residuals.push_back(
-          {sample.normal.dot(projected->image_px - sample.origin_px) - sample.offset_px,
-           sample.precision});
-    }
+    const std::vector<SampleResidual> of_run = ResidualsOf(run.samples, projection);
+    residuals.insert(residuals.end(), of_run.begin(), of_run.end());
   }
-  if (residuals.empty()) return std::nullopt;
-  return MeasureSpread(std::move(residuals));
+  return residuals;
 }
 
 }  // namespace
@@ -155,7 +149,7 @@ JointRefinement SummariseTogether(JointState& state, SolvedTogether& solved) {
     joint.photographs.push_back({whole * parts,
                                  whole * covariance * whole.transpose(),
                                  moving.num_matched,
-                                 SpreadOf(joint.photographs.size(), state)});
+                                 ResidualsOfPhotograph(joint.photographs.size(), state)});
   }
   for (const MovingTie& tie : state.ties) {
     joint.tie_moves_in_world.push_back(tie.frame.axes_in_world * tie.move);

@@ -3,11 +3,10 @@
 #pragma once
 
 #include "register/camera/camera_prior.h"
-#include "register/edges/residual_spread.h"
+#include "register/edges/edge_residuals.h"
 
 #include <Eigen/Dense>
 
-#include <optional>
 #include <vector>
 
 namespace groundglass {
@@ -26,8 +25,8 @@ struct JointSolution {
   CameraParameters whitened = CameraParameters::Zero();
   CameraCovariance covariance = CameraCovariance::Identity();  // of the whitened parameters
   int num_matched = 0;
-  // Of the matched samples about the model's edges as the model has them.
-  std::optional<ResidualSpread> spread = {};
+  // Of the matched samples from the model's edges as the model has them.
+  std::vector<SampleResidual> residuals = {};
 };
 
 struct JointRefinement {

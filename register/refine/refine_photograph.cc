@@ -4,7 +4,6 @@
 
 #include "register/camera/control_point_cost.h"
 #include "register/camera/standard_normal_cost.h"
-#include "register/edges/weighted_median.h"
 #include "register/refine/edge_alignment_cost.h"
 #include "register/refine/systematic_error.h"
 #include "scene/check_option.h"
@@ -47,23 +46,6 @@ std::vector<AlignedSample> AlignSamples(const std::vector<EdgeSample>& samples,
     }
   }
   return aligned;
-}
-
-// Spread of the residuals of the likely matches, by the precision that each was given; nothing if
-// none can be seen.
-std::optional<ResidualSpread> SpreadOf(const std::vector<AlignedSample>& aligned,
-                                       const CameraPrior& prior,
-                                       const CameraParameters& whitened) {
-  const ParameterProjection projection = prior.ProjectionAt(whitened);
-  std::vector<WeightedValue> residuals;
-  for (const AlignedSample& sample : aligned) {
-    const auto image_px = projection.ImageOf(sample.point_in_world);
-    if (!image_px) continue;
-    residuals.push_back(
-        {sample.normal.dot(*image_px - sample.origin_px) - sample.offset_px, sample.precision});
-  }
-  if (residuals.empty()) return std::nullopt;
-  return MeasureSpread(std::move(residuals));
 }
 
 // One robust step.
@@ -221,8 +203,9 @@ Refinement RefinePhotograph(const CameraParameters& start,
     before = refinement.whitened;
     const bool is_last = number == options.num_final_steps;
     if (!match_and_solve(options.final_iterations, is_last)) return refinement;
-    refinement.spread = SpreadOf(aligned, prior, refinement.whitened);
-    annealing.noise_px = std::clamp(refinement.spread ? refinement.spread->robust_sigma_px : 1,
+    refinement.residuals = ResidualsOf(aligned, prior.ProjectionAt(refinement.whitened));
+    const std::optional<ResidualSpread> spread = SpreadOf(refinement.residuals);
+    annealing.noise_px = std::clamp(spread ? spread->robust_sigma_px : 1,
                                     options.min_noise_px,
                                     options.matching.final_range_px / 2);
   }

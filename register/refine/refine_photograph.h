@@ -7,8 +7,8 @@
 #include "register/edges/aligned_sample.h"
 #include "register/edges/edge_evidence.h"
 #include "register/edges/edge_matches.h"
+#include "register/edges/edge_residuals.h"
 #include "register/edges/edge_samples.h"
-#include "register/edges/residual_spread.h"
 
 #include <optional>
 #include <string>
@@ -59,9 +59,9 @@ struct Refinement {
   // Of the whitened parameters, with model bias and residual spread included. Without a covariance
   // (kNoCovariance and below) it is the prior's.
   CameraCovariance covariance = CameraCovariance::Identity();
-  std::vector<EdgeSample> samples;       // as visible from the refined camera
-  int num_matched = 0;                   // samples with a match
-  std::optional<ResidualSpread> spread;  // of the matched residuals, if there are any
+  std::vector<EdgeSample> samples;        // as visible from the refined camera
+  int num_matched = 0;                    // samples with a match
+  std::vector<SampleResidual> residuals;  // of these, as the refined camera sees them
   // The spread as the solver takes it, within the bounds that are believed.
   double noise_px = 1;
 };

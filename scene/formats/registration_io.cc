@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace groundglass {
 namespace {
 
@@ -82,6 +84,28 @@ Verdict VerdictFromName(const std::string& name) {
   throw Error("verdict '" + name + "' is not accepted, review, rejected or unreadable");
 }
 
+// To a hundredth of a pixel: rows of u, v and the offset.
+Json JsonFromResiduals(const std::vector<EdgeResidual>& residuals) {
+  const auto hundredths = [](double px) { return std::round(100 * px) / 100 + 0.0; };
+  Json rows = Json::array();
+  for (const EdgeResidual& residual : residuals) {
+    rows.push_back({hundredths(residual.image_px.x()),
+                    hundredths(residual.image_px.y()),
+                    hundredths(residual.offset_px.x()),
+                    hundredths(residual.offset_px.y())});
+  }
+  return rows;
+}
+
+std::vector<EdgeResidual> ResidualsFromJson(const Json& json) {
+  std::vector<EdgeResidual> residuals;
+  for (const Json& row : json) {
+    residuals.push_back({{row.at(0).get<double>(), row.at(1).get<double>()},
+                         {row.at(2).get<double>(), row.at(3).get<double>()}});
+  }
+  return residuals;
+}
+
 Json JsonFromRegistration(const Registration& registration) {
   Json json;
   json["name"] = registration.name;
@@ -108,6 +132,7 @@ Json JsonFromRegistration(const Registration& registration) {
   json["num_samples"] = registration.num_samples;
   json["rms_px"] = JsonFromOptional(registration.rms_px);
   json["robust_sigma_px"] = JsonFromOptional(registration.robust_sigma_px);
+  json["residuals"] = JsonFromResiduals(registration.residuals);
   json["score_nats"] = registration.score_nats;
   json["margin_nats"] = JsonFromOptional(registration.margin_nats);
   if (registration.ties) {
@@ -156,6 +181,10 @@ Registration RegistrationFromJson(const Json& json) {
   } else {
     // Written by version 0.1, which called the robust spread rms_px.
     registration.robust_sigma_px = OptionalFromJson(json, "rms_px");
+  }
+  // Version 0.1 and what came soon after wrote none.
+  if (const auto residuals = json.find("residuals"); residuals != json.end()) {
+    registration.residuals = ResidualsFromJson(*residuals);
   }
   registration.score_nats = json.at("score_nats").get<double>();
   registration.margin_nats = OptionalFromJson(json, "margin_nats");

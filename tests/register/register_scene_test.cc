@@ -71,6 +71,25 @@ TEST(RegisterScene, TheBrickBuildingsSlidesAreFoundToHalfAPixel) {
   EXPECT_LT(errors.accepted_px[errors.accepted_px.size() / 2], 0.5);
 }
 
+TEST(RegisterScene, ResidualsAreThoseOfTheWholePhotograph) {
+  Scene scene = ReadScene(BrickFolder());
+  scene.photographs.resize(2);
+  for (const Registration& registration : RegisterScene(scene, {}, {}, {}).registrations) {
+    ASSERT_GT(registration.residuals.size(), 50) << registration.name;
+    double squares = 0;
+    for (const EdgeResidual& residual : registration.residuals) {
+      squares += residual.offset_px.squaredNorm();
+      EXPECT_GT(residual.image_px.minCoeff(), 0);
+      EXPECT_LT(residual.image_px.x(), registration.width_px);
+      EXPECT_LT(residual.image_px.y(), registration.height_px);
+    }
+    // Means of pieces scatter less than samples, and count alike.
+    const double rms_px = std::sqrt(squares / static_cast<double>(registration.residuals.size()));
+    EXPECT_GT(rms_px, 0.3 * *registration.rms_px);
+    EXPECT_LT(rms_px, 2 * *registration.rms_px);
+  }
+}
+
 // Slide 7 with `k 79.9` typed for 19.9: the tag looks into the sky above the hall.
 TEST(RegisterScene, ATagThatLooksIntoTheSkyIsRejectedOrPutRightAndNeverAccepted) {
   Scene scene = ReadScene(BrickFolder());

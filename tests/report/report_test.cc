@@ -10,6 +10,7 @@
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/registration_io.h"
+#include "scene/text.h"
 #include "tests/support/spoilt_options.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/viewer/sample_models.h"
@@ -171,6 +172,31 @@ TEST_F(ReportOf, ShowsBeforeAndAfterWhenItHasTheScene) {
   EXPECT_THAT(html, HasSubstr("<svg class=\"as_corrected\" viewBox=\"0 0 300 200\""));
   EXPECT_THAT(html, HasSubstr("aria-label=\"s1: border between"));
   EXPECT_THAT(html, HasSubstr(" ft"));
+  EXPECT_THAT(html, Not(HasSubstr("ten times enlarged</option>")));
+}
+
+TEST_F(ReportOf, DrawsResidualsTenTimesEnlarged) {
+  WriteRegistrations();
+  std::vector<Registration> registrations = ReadRegistrations(folder_ / "registration.json");
+  Registration& registration = registrations.front();
+  registration.residuals = {{{registration.width_px / 2.0, 30}, {0.5, -1}}};
+  WriteFileAtomically(folder_ / "registration.json", FormatRegistrations(registrations));
+  Scene scene;
+  scene.model = MakeCheckeredBox().model;
+  scene.photographs.resize(1);
+  scene.photographs[0].name = registration.name;
+  scene.photographs[0].image_file = folder_.parent_path() / "s1.png";
+  WriteSrgb8(scene.photographs[0].image_file,
+             MakePlainPage(registration.width_px, registration.height_px, 120, 90, 60));
+  ReportOptions options;
+  options.find_edges = MakeEdgeFinding(scene.model);
+  options.picture_width_px = registration.width_px / 2;
+  const std::string html = MakeReport(folder_, &scene, options);
+  // Half the size, so half the place and five times the offset.
+  const std::string x = std::to_string(registration.width_px / 4);
+  const std::string end = FormatNumber(registration.width_px / 4.0 + 2.5);
+  EXPECT_THAT(html, HasSubstr("<path d=\"M" + x + " 15L" + end + " 10\"/>"));
+  EXPECT_THAT(html, HasSubstr("ten times enlarged</option>"));
 }
 
 TEST_F(ReportOf, SaysWhatWasCorrectedInAPersonsWords) {

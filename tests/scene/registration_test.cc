@@ -116,6 +116,7 @@ TEST(RegistrationFile, RoundTripsToTheLastBit) {
   registration.num_samples = 321;
   registration.rms_px = 0.1 + 0.2;
   registration.robust_sigma_px = 0.21;
+  registration.residuals = {{{12.25, 7}, {-0.5, 0.03}}};
   registration.score_nats = 412.5;
   registration.margin_nats = 61;
   registration.moved_px = 16.8;
@@ -139,6 +140,9 @@ TEST(RegistrationFile, RoundTripsToTheLastBit) {
   EXPECT_EQ(again.num_samples, 321);
   EXPECT_EQ(again.rms_px, registration.rms_px);
   EXPECT_EQ(again.robust_sigma_px, 0.21);
+  ASSERT_EQ(again.residuals.size(), 1);
+  EXPECT_EQ(again.residuals[0].image_px, Eigen::Vector2d(12.25, 7));
+  EXPECT_EQ(again.residuals[0].offset_px, Eigen::Vector2d(-0.5, 0.03));
   EXPECT_EQ(again.score_nats, 412.5);
   EXPECT_EQ(again.margin_nats, 61);
   EXPECT_EQ(again.moved_px, 16.8);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 namespace groundglass {
 namespace {
@@ -47,8 +48,9 @@ TEST(RefinePhotograph, EndsAtTheTruthFromAStartSomePixelsOff) {
     EXPECT_EQ(refined.outcome, Refinement::Outcome::kConverged) << off_px;
     EXPECT_LT(VertexErrorPx(house.model, house.truth, prior.CameraAt(refined.whitened)), 0.1)
         << off_px;
-    ASSERT_TRUE(refined.spread);
-    EXPECT_LT(refined.spread->robust_sigma_px, 0.2) << off_px;
+    const std::optional<ResidualSpread> spread = SpreadOf(refined.residuals);
+    ASSERT_TRUE(spread);
+    EXPECT_LT(spread->robust_sigma_px, 0.2) << off_px;
     // It has learnt something, and says so.
     EXPECT_LT(refined.covariance.trace(), 0.8 * kNumCameraParameters);
   }
@@ -83,7 +85,7 @@ TEST(RefinePhotograph, APhotographWithoutEdgesLeavesTheStartAndThePrior) {
   EXPECT_EQ(refined.outcome, Refinement::Outcome::kTooFewEdges);
   EXPECT_EQ(refined.whitened, start);
   EXPECT_EQ(refined.covariance, CameraCovariance::Identity());
-  EXPECT_FALSE(refined.spread);
+  EXPECT_TRUE(refined.residuals.empty());
 }
 
 TEST(RefinePhotograph, FewerMatchesThanAreAskedForAreTooFew) {

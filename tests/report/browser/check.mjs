@@ -69,6 +69,15 @@ async function picture(page, name, options = {}) {
     await wipe.focus();
     for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowRight");
     expect("and the arrow keys", parseFloat(await at()) === before + 5, await at());
+    const enlarged = await page.$('.wipe option[value="residuals"]');
+    if (enlarged) {
+      const display = () => page.$eval(".residuals", (element) => getComputedStyle(element).display);
+      expect("residuals are hidden at first", (await display()) === "none", await display());
+      await page.select(".wipe select", "residuals");
+      expect("and shown when asked for", (await display()) === "block", await display());
+      await picture(page, "residuals");
+      await page.select(".wipe select", "both");
+    }
     const names = await page.$$eval("input, select, canvas, svg[role]", (elements) =>
       elements.filter((e) => !e.getAttribute("aria-label") && !e.closest("label")).length);
     expect("every control has a name", names === 0, names);
