@@ -8,6 +8,7 @@
 #include "cli/option_fault.h"
 #include "cli/suggestion.h"
 #include "scene/error.h"
+#include "scene/formats/unfinished_files.h"
 
 #include <algorithm>
 #include <csignal>
@@ -38,6 +39,7 @@ int RunGroundglass(int argc, char** argv) {
   KeepFreedMemory(0);
   // A limit on file sizes is a full disk: an error like any other, not the end on the spot.
   std::signal(SIGXFSZ, SIG_IGN);
+  RemoveUnfinishedFilesOnSignals();
   CLI::App app{
       "Groundglass corrects hand-measured camera tags against a polygon model, and turns the\n"
       "photographs into a textured model.",

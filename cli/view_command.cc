@@ -6,6 +6,7 @@
 #include "cli/option_range.h"
 #include "scene/error.h"
 
+#include <csignal>
 #include <filesystem>
 #include <memory>
 
@@ -44,6 +45,9 @@ int RunView(const ViewArguments& arguments) {
                       "open a window on " + arguments.folder.string(),
                       {{"folder", arguments.folder.string()}});
   }
+  // SDL turns them into the question what is to become of unsaved work, unless somebody else
+  // handles them.
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
   RunWindow(options);
   return kExitDone;
 #else

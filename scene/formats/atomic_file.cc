@@ -3,6 +3,7 @@
 #include "scene/formats/atomic_file.h"
 
 #include "scene/error.h"
+#include "scene/formats/unfinished_files.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <list>
 #include <system_error>
 #include <utility>
 
@@ -90,6 +92,7 @@ void WriteBesideAndRename(const fs::path& file, const Write& write) {
   std::error_code error;
   MakeFolderOf(file);
   const fs::path temporary = TemporaryName(file);
+  const UnfinishedFile unfinished(temporary);
   try {
     write(temporary);
     fs::rename(temporary, file, error);
@@ -130,6 +133,7 @@ void WriteFileAtomically(const fs::path& file, std::string_view bytes) {
 
 void WriteFilesAtomically(const std::vector<FileToWrite>& files) {
   std::vector<fs::path> temporary_names;
+  std::list<UnfinishedFile> unfinished;
   std::error_code error;
   try {
     for (const FileToWrite& each : files) {
@@ -139,6 +143,7 @@ void WriteFilesAtomically(const std::vector<FileToWrite>& files) {
         throw Error(each.file, "cannot write here: a folder has this name");
       }
       temporary_names.push_back(TemporaryName(each.file));
+      unfinished.emplace_back(temporary_names.back());
       Descriptor out(each.file, temporary_names.back(), O_WRONLY | O_CREAT | O_TRUNC);
       out.Write(each.bytes);
       out.Finish();
