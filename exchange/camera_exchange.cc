@@ -40,7 +40,10 @@ void RequireNoInput(const ExchangeSource& source, const fs::path& out) {
 class CameraPreparation {
  public:
   CameraPreparation(const CameraFormat& format, const ExchangeSource& source, const fs::path& out)
-      : format_(format), source_(source), folder_(format.is_folder ? out : out.parent_path()) {}
+      : format_(format), source_(source), folder_(format.is_folder ? out : out.parent_path()) {
+    // Several files may lie in one folder, each with the pictures that its format needs.
+    if (!format.is_folder) prefix_ = out.stem().string() + "_" + std::string(format.name) + "_";
+  }
 
   ExchangeCamera Prepare(const NamedCamera& named, const std::string& name) {
     ExchangeCamera each = {name, named.name, named.camera, {}};
@@ -75,7 +78,7 @@ class CameraPreparation {
 
  private:
   fs::path PictureFile(const std::string& name) const {
-    return (format_.keeps_pictures ? folder_ : folder_ / "images") / (name + ".jpg");
+    return (format_.keeps_pictures ? folder_ : folder_ / (prefix_ + "images")) / (name + ".jpg");
   }
 
   // Originals are never written, neither photographs nor the masks that lie beside their folder.
@@ -95,7 +98,7 @@ class CameraPreparation {
     each.image_file = fs::absolute(PictureFile(each.name));
     each.image_name = each.image_file.filename().string();
     WriteSrgb8(each.image_file, image.srgb8);
-    WriteSrgb8(folder_ / "masks" / (each.name + ".png"), image.mask);
+    WriteSrgb8(folder_ / (prefix_ + "masks") / (each.name + ".png"), image.mask);
   }
 
   // As it is if it is a JPEG that nobody turns.
@@ -113,6 +116,7 @@ class CameraPreparation {
   const CameraFormat& format_;
   const ExchangeSource& source_;
   fs::path folder_;
+  std::string prefix_;  // of the folders of pictures and masks
   int num_changed_ = 0;
 };
 

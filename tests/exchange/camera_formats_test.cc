@@ -379,6 +379,14 @@ TEST(CameraExchange, PicturesThatAFormatCannotHoldAreWrittenAnewWithMasks) {
   EXPECT_EQ(*mask.At(5, picture.height / 2), 0);
   EXPECT_EQ(*mask.At(picture.width - 5, picture.height / 2), 255);
   EXPECT_TRUE(std::filesystem::exists(folder / "rc/s3.xmp"));
+  // Files that lie in one folder have pictures of their own.
+  source.cameras[0].camera.k1 = -0.1;
+  WriteCamerasAs("meshlab", source, folder / "both/hall.mlp");
+  WriteCamerasAs("blender", source, folder / "both/hall.py");
+  EXPECT_TRUE(std::filesystem::exists(folder / "both/hall_meshlab_images/s3.jpg"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "both/hall_meshlab_masks/s3.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "both/hall_blender_images/s3.jpg"));
+  EXPECT_THAT(ReadTextFile(folder / "both/hall.mlp"), HasSubstr("hall_meshlab_images/s3.jpg"));
   // A format that can hold it takes the photograph as it is.
   WriteCamerasAs("nerfstudio", source, folder / "n/transforms.json");
   EXPECT_THAT(ReadTextFile(folder / "n/transforms.json"), HasSubstr("\"../photos/s3.jpg\""));
