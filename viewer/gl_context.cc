@@ -3,52 +3,48 @@
 #include "viewer/gl_context.h"
 
 #include "scene/error.h"
+#include "scene/text.h"
 
-#include <GL/osmesa.h>
+#ifdef GROUNDGLASS_HAS_EGL
+#include "viewer/egl_context.h"
+#endif
+#ifdef GROUNDGLASS_HAS_OSMESA
+#include "viewer/osmesa_context.h"
+#endif
 
-#include <array>
-#include <cstdint>
+#include <cstdlib>
 
 namespace groundglass {
-namespace {
 
-class OsMesaContext : public GlContext {
- public:
-  OsMesaContext() {
-    const std::array<int, 11> attributes = {OSMESA_FORMAT,
-                                            OSMESA_RGBA,
-                                            OSMESA_PROFILE,
-                                            OSMESA_CORE_PROFILE,
-                                            OSMESA_CONTEXT_MAJOR_VERSION,
-                                            3,
-                                            OSMESA_CONTEXT_MINOR_VERSION,
-                                            3,
-                                            OSMESA_DEPTH_BITS,
-                                            0,
-                                            0};
-    context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
-    if (!context_) {
-      throw Error("viewer: OSMesa gives no OpenGL 3.3 core context; install Mesa's libosmesa6");
+const std::vector<GlBackend>& GlBackends() {
+  static const std::vector<GlBackend> backends = {
+#ifdef GROUNDGLASS_HAS_OSMESA
+      {"osmesa", MakeOsMesaContext},
+#endif
+#ifdef GROUNDGLASS_HAS_EGL
+      {"egl", MakeEglContext},
+#endif
+  };
+  return backends;
+}
+
+std::unique_ptr<GlContext> MakeGlContext() {
+  constexpr const char* kVariable = "GROUNDGLASS_GL";
+  const char* wanted = std::getenv(kVariable);
+  std::string names;
+  std::string faults;
+  for (const GlBackend& backend : GlBackends()) {
+    names += (names.empty() ? "" : ", ") + backend.name;
+    if (wanted != nullptr && *wanted != 0 && backend.name != wanted) continue;
+    try {
+      return backend.make();
+    } catch (const Error& error) {
+      faults += (faults.empty() ? "" : "; ") + std::string(error.what());
     }
   }
-  ~OsMesaContext() override { OSMesaDestroyContext(context_); }
-
-  void MakeCurrent() override {
-    if (!OSMesaMakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, kWindowPx, kWindowPx)) {
-      throw Error("viewer: OSMesa cannot make its OpenGL context current");
-    }
-  }
-  Function FindFunction(const char* name) override { return OSMesaGetProcAddress(name); }
-
- private:
-  // OSMesa wants a picture to call its window; nothing is ever drawn there.
-  static constexpr int kWindowPx = 4;
-  std::array<uint8_t, 4 * kWindowPx* kWindowPx> window_ = {};
-  OSMesaContext context_ = nullptr;
-};
-
-}  // namespace
-
-std::unique_ptr<GlContext> MakeOsMesaContext() { return std::make_unique<OsMesaContext>(); }
+  if (!faults.empty()) throw Error("viewer: " + faults);
+  throw Error(std::string("the environment variable ") + kVariable + " is " + Quote(wanted) +
+              "; expected one of what this program was built with: " + names);
+}
 
 }  // namespace groundglass

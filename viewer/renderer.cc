@@ -52,7 +52,7 @@ Image16 LabelsInFrame(const std::vector<GLuint>& drawn,
 
 // A context that is current, for the members of a renderer that are made after it.
 std::unique_ptr<GlContext> MakeCurrentContext() {
-  std::unique_ptr<GlContext> context = MakeOsMesaContext();
+  std::unique_ptr<GlContext> context = MakeGlContext();
   context->MakeCurrent();
   return context;
 }
@@ -106,6 +106,7 @@ struct Renderer::Impl {
     gl.FrontFace(GL_CW);  // see ClipFromCam
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl.Enable(GL_FRAMEBUFFER_SRGB);
+    context->Release();
   }
   ~Impl() { context->MakeCurrent(); }
 
@@ -157,6 +158,11 @@ struct Renderer::Impl {
     return ReadLabels(gl, labels);
   }
 
+  Image16 LabelsOf(const Camera& camera) {
+    const PinholeFrame frame = FrameOf(camera, 1);
+    return LabelsInFrame(DrawLabels(frame.pinhole), frame, camera);
+  }
+
   void CheckFrame(const OrthographicView& view) const {
     if (view.width_px < 1 || view.height_px < 1 || view.width_px > max_frame_px ||
         view.height_px > max_frame_px) {
@@ -205,7 +211,7 @@ const std::vector<std::string>& Renderer::Warnings() const { return impl_->warni
 Image8 Renderer::Render(const Camera& camera, const RenderOptions& options) {
   options.Check();
   Impl& impl = *impl_;
-  impl.context->MakeCurrent();
+  const CurrentGlContext current(*impl.context);
   const PinholeFrame frame = impl.FrameOf(camera, options.supersampling);
   impl.DrawModel(frame.pinhole, options);
   if (options.background == Background::kSky) {
@@ -218,22 +224,20 @@ Image8 Renderer::Render(const Camera& camera, const RenderOptions& options) {
   if (options.edges || with_numbers || options.mode == DrawMode::kWireframe) {
     impl.DrawEdgesOver(picture, camera, options);
   }
-  if (with_numbers) DrawFaceNumbers(picture, NumbersFromLabels(impl.model, RenderLabels(camera)));
+  if (with_numbers) DrawFaceNumbers(picture, NumbersFromLabels(impl.model, impl.LabelsOf(camera)));
   return picture;
 }
 
 Image16 Renderer::RenderLabels(const Camera& camera) {
-  Impl& impl = *impl_;
-  impl.context->MakeCurrent();
-  const PinholeFrame frame = impl.FrameOf(camera, 1);
-  return LabelsInFrame(impl.DrawLabels(frame.pinhole), frame, camera);
+  const CurrentGlContext current(*impl_->context);
+  return impl_->LabelsOf(camera);
 }
 
 Image8 Renderer::Render(const OrthographicView& view, const RenderOptions& options) {
   options.Check();
   Impl& impl = *impl_;
   impl.CheckFrame(view);
-  impl.context->MakeCurrent();
+  const CurrentGlContext current(*impl.context);
   impl.DrawModel(view, options);
   return ReadPicture(impl.gl, impl.drawn, options.background == Background::kTransparent);
 }
@@ -241,7 +245,7 @@ Image8 Renderer::Render(const OrthographicView& view, const RenderOptions& optio
 Image16 Renderer::RenderLabels(const OrthographicView& view) {
   Impl& impl = *impl_;
   impl.CheckFrame(view);
-  impl.context->MakeCurrent();
+  const CurrentGlContext current(*impl.context);
   const std::vector<GLuint> drawn = impl.DrawLabels(view);
   Image16 labels(view.width_px, view.height_px, 1);
   std::transform(drawn.begin(), drawn.end(), labels.values.begin(), [](GLuint label) {
