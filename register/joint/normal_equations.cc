@@ -5,21 +5,6 @@
 #include "scene/error.h"
 
 namespace groundglass {
-namespace {
-
-// Another system's inverse, as a preconditioner.
-struct ByInverse {
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>* inverse = nullptr;
-  ByInverse& analyzePattern(const Eigen::SparseMatrix<double>&) { return *this; }
-  ByInverse& factorize(const Eigen::SparseMatrix<double>&) { return *this; }
-  ByInverse& compute(const Eigen::SparseMatrix<double>&) { return *this; }
-  Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const {
-    return inverse->solve(right_side);
-  }
-  Eigen::ComputationInfo info() const { return Eigen::Success; }
-};
-
-}  // namespace
 
 NormalEquations::NormalEquations(ceres::Problem& problem, const std::vector<double*>& blocks) {
   std::vector<ceres::ResidualBlockId> costs;
@@ -62,18 +47,6 @@ Eigen::MatrixXd NormalEquations::LinearResponse(const Eigen::SparseMatrix<double
   return inverse_.solve(Eigen::MatrixXd(by_column));
 }
 
-NormalEquations::RowMajorMatrix NormalEquations::JacobianOf(const std::vector<Rows>& rows) const {
-  Eigen::Index num_rows = 0;
-  for (const Rows& each : rows) num_rows += each.size;
-  RowMajorMatrix theirs(num_rows, NumColumns());
-  Eigen::Index next = 0;
-  for (const Rows& each : rows) {
-    theirs.middleRows(next, each.size) = jacobian_.middleRows(each.first, each.size);
-    next += each.size;
-  }
-  return theirs;
-}
-
 Eigen::SparseMatrix<double> NormalEquations::InformationOf(const std::vector<Rows>& rows) const {
   // Not of a matrix of these rows, as for the few of a cluster: they may be nearly all.
   Eigen::VectorXd counts = Eigen::VectorXd::Zero(jacobian_.rows());
@@ -82,23 +55,59 @@ Eigen::SparseMatrix<double> NormalEquations::InformationOf(const std::vector<Row
   return jacobian_.transpose() * theirs;
 }
 
-Eigen::VectorXd NormalEquations::LeaveOutUpdate(const std::vector<Rows>& left_out) const {
-  const RowMajorMatrix theirs = JacobianOf(left_out);
-  Eigen::VectorXd residuals(theirs.rows());
-  Eigen::Index next = 0;
-  for (const Rows& rows : left_out) {
-    residuals.segment(next, rows.size) = residuals_.segment(rows.first, rows.size);
-    next += rows.size;
+void NormalEquations::AddSquare(const std::vector<Rows>& rows,
+                                const Eigen::VectorXd& vector,
+                                Eigen::VectorXd& sum) const {
+  using Entries = RowMajorMatrix::InnerIterator;
+  for (const Rows& each : rows) {
+    for (Eigen::Index row = each.first; row < each.first + each.size; ++row) {
+      double product = 0;
+      for (Entries entry(jacobian_, row); entry; ++entry) {
+        product += entry.value() * vector[entry.col()];
+      }
+      for (Entries entry(jacobian_, row); entry; ++entry) {
+        sum[entry.col()] += entry.value() * product;
+      }
+    }
   }
-  const Eigen::SparseMatrix<double> by_column = theirs;
-  const Eigen::SparseMatrix<double> normal = normal_ - by_column.transpose() * by_column;
-  // The inverse of the whole is nearly that of all but a few of its rows.
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper, ByInverse>
-      without;
-  without.preconditioner().inverse = &inverse_;
-  without.setTolerance(1e-6);
-  without.compute(normal);
-  return without.solve(theirs.transpose() * residuals);
+}
+
+// Conjugate gradients with the inverse of the whole as a preconditioner, which is nearly that of
+// all but a few of its rows. Of a direction, what the whole makes of it is known: the whole's
+// inverse made it. So neither the whole nor what is left of it is ever multiplied by, or built.
+Eigen::VectorXd NormalEquations::LeaveOutUpdate(const std::vector<Rows>& left_out) const {
+  constexpr double kTolerance = 1e-6;
+  Eigen::VectorXd right_side = Eigen::VectorXd::Zero(NumColumns());
+  for (const Rows& rows : left_out) {
+    for (Eigen::Index row = rows.first; row < rows.first + rows.size; ++row) {
+      for (RowMajorMatrix::InnerIterator entry(jacobian_, row); entry; ++entry) {
+        right_side[entry.col()] += entry.value() * residuals_[row];
+      }
+    }
+  }
+  Eigen::VectorXd update = Eigen::VectorXd::Zero(NumColumns());
+  const double enough = kTolerance * kTolerance * right_side.squaredNorm();
+  Eigen::VectorXd residual = right_side;
+  Eigen::VectorXd direction = inverse_.solve(residual);
+  Eigen::VectorXd whole_direction = residual;  // the whole times the direction
+  double product = residual.dot(direction);
+  for (Eigen::Index i = 0; i < NumColumns() && residual.squaredNorm() > enough; ++i) {
+    Eigen::VectorXd taken_off = Eigen::VectorXd::Zero(NumColumns());
+    AddSquare(left_out, direction, taken_off);
+    const Eigen::VectorXd rest = whole_direction - taken_off;
+    const double curvature = direction.dot(rest);
+    if (!(curvature > 0)) break;  // what is left determines no more
+    const double step = product / curvature;
+    update += step * direction;
+    residual -= step * rest;
+    const Eigen::VectorXd next = inverse_.solve(residual);
+    const double next_product = residual.dot(next);
+    const double share = next_product / product;
+    direction = next + share * direction;
+    whole_direction = residual + share * whole_direction;
+    product = next_product;
+  }
+  return update;
 }
 
 Eigen::MatrixXd NormalEquations::CovarianceColumns(Eigen::Index first, Eigen::Index size) const {

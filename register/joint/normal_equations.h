@@ -40,7 +40,10 @@ class NormalEquations {
  private:
   using RowMajorMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-  RowMajorMatrix JacobianOf(const std::vector<Rows>& rows) const;
+  // Adds J^T J vector to the sum, J these rows of the Jacobian.
+  void AddSquare(const std::vector<Rows>& rows,
+                 const Eigen::VectorXd& vector,
+                 Eigen::VectorXd& sum) const;
 
   std::map<ceres::ResidualBlockId, Rows> rows_of_costs_;
   std::map<const double*, Eigen::Index> column_of_block_;
