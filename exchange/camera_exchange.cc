@@ -2,12 +2,12 @@
 // Part of Groundglass.
 #include "exchange/camera_exchange.h"
 
+#include "exchange/export_folder.h"
 #include "exchange/formats.h"
 #include "scene/error.h"
 #include "scene/formats/given_cameras.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/image_paths.h"
-#include "scene/formats/output_folder.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
 
@@ -17,20 +17,6 @@ namespace groundglass {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Who reads the folder finds more there than this program may add to.
-void RequireNoScene(const fs::path& folder) {
-  bool holds_scene = fs::exists(folder / "views") || fs::exists(folder / "tags.csv");
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    holds_scene = holds_scene || entry.path().stem() == "model";
-  }
-  const bool is_scene = holds_scene && fs::exists(folder / "images");
-  if (!is_scene && !IsOutputFolder(folder)) return;
-  throw Error(folder,
-              std::string("is ") + (is_scene ? "a scene's folder" : "the output of a run") +
-                  ", where cameras would be taken for its own; give a folder of their own");
-}
 
 void RequireNoInput(const ExchangeSource& source, const fs::path& out) {
   for (const fs::path& file : source.files) RequireOtherFile(file, out);
@@ -158,7 +144,7 @@ ExchangeResult WriteCamerasAs(std::string_view format_name,
   if (!source.model_file.empty()) scene.model_file = fs::absolute(source.model_file);
   scene.registrations = source.registrations;
   const fs::path out_path = fs::absolute(out);
-  if (format->is_folder) RequireNoScene(out_path);
+  if (format->is_folder) RequireExportFolder(out_path, *format);
   const std::vector<std::string> names = NamesOf(source);
   CameraPreparation preparation(*format, source, out_path);
   for (size_t i = 0; i < source.cameras.size(); ++i) {

@@ -35,10 +35,11 @@ std::string DescribeCameraFormats();
 // projects, or an output folder.
 bool HasExchangeCameras(const std::filesystem::path& input);
 
-// Cameras of an output folder, a COLMAP model, a folder of view files (whose pictures' sizes come
-// from `images`), a file of fSpy's, MeshLab's, Metashape's or nerfstudio's, or a folder of fSpy's.
-// images: the folder of pictures; empty: view files' ../images. A camera that cannot be one is left
-// out with a warning. Throws Error where none is left.
+// Cameras of an output folder (but for those of rejected photographs), a COLMAP model, a folder of
+// view files (whose pictures' sizes come from `images`), a file of fSpy's, MeshLab's, Metashape's
+// or nerfstudio's, or a folder of fSpy's. images: the folder of pictures; empty: view files'
+// ../images. A camera that cannot be one is left out with a warning. Throws Error where none is
+// left.
 ExchangeSource ReadExchangeSource(const std::filesystem::path& input,
                                   const std::filesystem::path& images);
 

@@ -98,6 +98,34 @@ void TakeFiles(const std::vector<fs::path>& files, const fs::path& images, Excha
   if (images.empty()) source.images = files.front().parent_path();
 }
 
+// A rejected photograph's camera is the tag that was found wanting.
+void LeaveOutRejected(ExchangeSource& source) {
+  std::vector<std::string> images;
+  for (const NamedCamera& named : source.cameras) images.push_back(named.name);
+  const std::vector<std::string> names = NamePhotographs(images);
+  std::vector<NamedCamera> kept;
+  std::string rejected;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const bool is_rejected = std::any_of(source.registrations.begin(),
+                                         source.registrations.end(),
+                                         [&](const Registration& registration) {
+                                           return registration.name == names[i] &&
+                                                  registration.verdict == Verdict::kRejected;
+                                         });
+    if (is_rejected) {
+      rejected += (rejected.empty() ? "" : ", ") + names[i];
+    } else {
+      kept.push_back(source.cameras[i]);
+    }
+  }
+  if (rejected.empty()) return;
+  source.cameras = std::move(kept);
+  const std::string message = "left out, since their photographs are rejected: " + rejected +
+                              "; their tags as written are in views/";
+  if (source.cameras.empty()) throw Error("no camera is left: " + message);
+  source.warnings.push_back(message);
+}
+
 bool HasFoundCameras(const fs::path& folder) {
   return fs::exists(folder / "registration.json") && fs::exists(folder / "cameras");
 }
@@ -128,6 +156,7 @@ ExchangeSource ReadExchangeSource(const fs::path& input, const fs::path& images)
   if (HasFoundCameras(input)) {
     source.registrations = ReadRegistrations(input / "registration.json");
     TakeColmap(*FindColmapModel(input / "cameras"), source);
+    LeaveOutRejected(source);
     TakeModel(input, source);
     return source;
   }
