@@ -10,8 +10,8 @@ set -euo pipefail
 build=(g++ cmake ninja-build pkg-config
   libopencv-dev libceres-dev libeigen3-dev libtbb-dev libembree-dev
   libopenimageio-dev openimageio-tools  # its CMake file asks for its programs too
-  liblcms2-dev libjpeg-dev libtiff-dev libutf8proc-dev libtinygltf-dev libstb-dev nlohmann-json3-dev
-  libcli11-dev libssl-dev libfmt-dev libkainjow-mustache-dev
+  liblcms2-dev libjpeg-dev libtiff-dev libutf8proc-dev libpolyclipping-dev libtinygltf-dev
+  libstb-dev nlohmann-json3-dev libcli11-dev libssl-dev libfmt-dev libkainjow-mustache-dev
   libapriltag-dev libosmesa6-dev libegl-dev libsqlite3-dev ffmpeg
   libsdl2-dev libimgui-dev libgeographiclib-dev)
 test=(libgtest-dev libgmock-dev libbenchmark-dev colmap xvfb libxtst-dev)

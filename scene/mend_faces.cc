@@ -3,6 +3,7 @@
 #include "scene/mend_faces.h"
 
 #include "scene/check_face.h"
+#include "scene/cut_faces.h"
 #include "scene/double_faces.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
@@ -10,6 +11,8 @@
 #include "scene/nested_faces.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 namespace groundglass {
@@ -47,7 +50,7 @@ class FaceMender {
     TellRepeated();
     TellTurned();
     DropDoubles();
-    TellNested();
+    CutNested();
     return std::move(mended_);
   }
 
@@ -188,20 +191,51 @@ class FaceMender {
     Warn(0, message);
   }
 
-  void TellNested() {
-    const std::vector<NestedFace> nested = FindNestedFaces(model_, mended_.usable);
-    if (nested.empty()) return;
-    const std::string first =
-        Place(nested[0].inner) + ", in " + DescribeFace(model_, nested[0].outer);
+  // A face that is laid on another one is what is meant there.
+  void CutNested() {
+    std::map<int, std::vector<int>> within;
+    for (const NestedFace& nested : FindNestedFaces(model_, mended_.usable)) {
+      within[nested.outer].push_back(nested.inner);
+    }
+    // All by the outlines as they are written. Corners of a textured face have places on its page
+    // too, which nobody knows for new ones.
+    std::map<int, std::vector<int>> cut;
+    for (const auto& [outer, inner] : within) {
+      if (!textures_.empty() && textures_[outer].page >= 0) continue;
+      if (auto points = CutOutline(outer, inner, model_)) cut[outer] = std::move(*points);
+    }
+    std::map<int, int> outer_of_cut;
+    std::map<int, int> outer_of_uncut;
+    for (const auto& [outer, inner] : within) {
+      const bool is_cut = cut.count(outer) > 0 && TakeIfSound(outer, std::move(cut[outer]));
+      for (const int face : inner) (is_cut ? outer_of_cut : outer_of_uncut)[face] = outer;
+    }
+    TellNested(outer_of_cut, "; what lies within is cut out of the other");
+    TellNested(outer_of_uncut,
+               ", so that it is chance which of the two is seen there; cut a hole for it, move it "
+               "off the plane, or leave out the one that is not meant");
+  }
+
+  bool TakeIfSound(int face, std::vector<int> points) {
+    std::swap(model_.faces[face].points, points);
+    if (!CheckFace(model_, face).fault.empty()) {
+      std::swap(model_.faces[face].points, points);
+      return false;
+    }
+    if (!textures_.empty()) textures_[face].corners_texel.clear();
+    return true;
+  }
+
+  void TellNested(const std::map<int, int>& outer_of, const std::string& what_of_it) {
+    if (outer_of.empty()) return;
+    const auto& [inner, outer] = *outer_of.begin();
+    const std::string first = Place(inner) + ", in " + DescribeFace(model_, outer);
     Warn(0,
-         (nested.size() == 1
-              ? "1 face lies within another one in the same plane, so that it is chance which of "
-                "the two is seen there: "
-              : std::to_string(nested.size()) +
-                    " faces lie within others in the same plane, so that it is chance which of the "
-                    "two is seen there; the first: ") +
-             first +
-             "; cut a hole for it, move it off the plane, or leave out the one that is not meant");
+         (outer_of.size() == 1
+              ? "1 face lies within another one in the same plane: " + first
+              : std::to_string(outer_of.size()) +
+                    " faces lie within others in the same plane (the first: " + first + ")") +
+             what_of_it);
   }
 
   const std::filesystem::path& file_;

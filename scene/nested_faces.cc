@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <set>
 #include <unordered_map>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -48,7 +49,7 @@ class NestedFaceFinder {
       if (flats.size() > 1) FindInPlane(flats);
     }
     std::vector<NestedFace> nested;
-    for (const auto& [inner, outer] : outer_of_) nested.push_back({inner, outer});
+    for (const auto& [inner, outer] : pairs_) nested.push_back({inner, outer});
     return nested;
   }
 
@@ -102,9 +103,7 @@ class NestedFaceFinder {
         const bool is_first_smaller = flats[i].area < flats[k].area;
         const Flat& inner = flats[is_first_smaller ? i : k];
         const Flat& outer = flats[is_first_smaller ? k : i];
-        if (outer_of_.count(inner.face) == 0 && IsWithin(inner, outer)) {
-          outer_of_[inner.face] = outer.face;
-        }
+        if (IsWithin(inner, outer)) pairs_.emplace(inner.face, outer.face);
       }
     }
   }
@@ -163,7 +162,7 @@ class NestedFaceFinder {
   Box bounds_;
   double tolerance_ = 0;
   std::unordered_map<PlaneCell, std::vector<Flat>, PlaneCellHash> groups_;
-  std::map<int, int> outer_of_;
+  std::set<std::pair<int, int>> pairs_;  // inner, outer
 };
 
 }  // namespace

@@ -14,9 +14,10 @@ namespace groundglass {
 // of the two is seen.
 struct NestedFace {
   int inner = -1;
-  int outer = -1;  // one of those that it lies in
+  int outer = -1;
 };
-// Of these sound faces, in their order; each inner face once.
+// Of these sound faces, in the order of the inner one, then the outer one: a pane in a window in a
+// wall lies in both.
 std::vector<NestedFace> FindNestedFaces(const PolygonModel& model, const std::vector<int>& faces);
 
 }  // namespace groundglass

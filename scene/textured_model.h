@@ -12,6 +12,8 @@
 namespace groundglass {
 
 constexpr uint16_t kProvenanceNone = 0;
+// Its texels' grey, sRGB: black would be taken for what is there.
+constexpr uint8_t kNoPhotographSrgb8 = 172;
 constexpr uint16_t kProvenanceFilled = 65535;
 
 // One texture page. Row 0 is the top of the picture.

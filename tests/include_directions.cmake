@@ -76,7 +76,7 @@ endforeach()
 # Third parties by the first part of their path, and the files (regular expression on the path in
 # the tree) that may include them.
 set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI
-    fmt kainjow nlohmann openssl tbb stb sys SDL2 imgui GeographicLib)
+    fmt kainjow nlohmann openssl tbb stb sys SDL2 imgui GeographicLib polyclipping)
 set(owners_Eigen "\\.(h|cc)$")
 set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|gui|report|datasets-synthetic|evaluate)/.*\\.cc$")
 set(owners_OpenImageIO "^(scene/formats/(image_(io|write|kind)|open_image|ignore_mask|photograph_metadata)|invrender/.*)\\.cc$")
@@ -84,6 +84,7 @@ set(owners_embree3 "^scene/visibility\\.cc$")
 set(owners_ceres "^(calibrate|register|session|invrender)/.*\\.cc$")
 set(owners_SDL2 "^gui/.*\\.cc$")
 set(owners_imgui "^gui/.*\\.cc$")
+set(owners_polyclipping "^scene/cut_faces\\.cc$")
 set(owners_GeographicLib "^calibrate/geoid\\.cc$")
 set(owners_apriltag "^calibrate/.*\\.cc$")
 set(owners_GL "^viewer/.*\\.cc$")

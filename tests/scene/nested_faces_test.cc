@@ -105,9 +105,88 @@ TEST(MendFaces, TellsOfFacesWithinOthersOnce) {
   const MendedFaces mended = MendFaces("m.osu", {5, 6, 7}, model, no_textures);
   EXPECT_THAT(mended.usable, ElementsAre(0, 1, 2));
   EXPECT_THAT(mended.warnings,
-              ElementsAre(HasSubstr("2 faces lie within others in the same plane, so that it is "
-                                    "chance which of the two is seen there; the first: face 2, "
-                                    "line 6, in face 1")));
+              ElementsAre(HasSubstr("2 faces lie within others in the same plane (the first: face "
+                                    "2, line 6, in face 1); what lies within is cut out of the "
+                                    "other")));
+  EXPECT_NEAR(ComputeFaceArea(model, 0), 50 - 2, 1e-9);
+  EXPECT_EQ(model.points_in_world.size(), 12);  // no corner but those that there were
+}
+
+// The area of each face once they are mended.
+std::vector<double> AreasOf(PolygonModel& model) {
+  std::vector<FaceTexture> no_textures;
+  MendFaces("m.osu", {}, model, no_textures);
+  std::vector<double> areas;
+  for (size_t face = 0; face < model.faces.size(); ++face) {
+    double area = 0;
+    for (const auto& [a, b, c] : TriangulateFace(model, static_cast<int>(face))) {
+      const auto& points = model.points_in_world;
+      area += (points[b] - points[a]).cross(points[c] - points[a]).norm() / 2;
+    }
+    EXPECT_NEAR(area, ComputeFaceArea(model, static_cast<int>(face)), 1e-9);
+    areas.push_back(area);
+  }
+  return areas;
+}
+
+void ExpectAreas(PolygonModel model, const std::vector<double>& expected) {
+  const std::vector<double> areas = AreasOf(model);
+  ASSERT_EQ(areas.size(), expected.size());
+  for (size_t i = 0; i < areas.size(); ++i) EXPECT_NEAR(areas[i], expected[i], 1e-7) << i;
+}
+
+TEST(CutFaces, ADoorOnTheWallsFootLeavesANotch) {
+  PolygonModel model;
+  AddRectangle(0, 0, 10, 5, model);
+  AddRectangle(4, 0, 5, 2, model);
+  ExpectAreas(model, {48, 2});
+  EXPECT_NE(AreasOf(model)[0], 50);
+  EXPECT_EQ(model.faces[0].points.size(), 8);
+}
+
+TEST(CutFaces, PanesThatTouchAreCutOutTogether) {
+  PolygonModel model;
+  AddRectangle(0, 0, 10, 5, model);
+  for (const double x : {2.0, 3.0}) {
+    for (const double y : {1.0, 2.0}) AddRectangle(x, y, x + 1, y + 1, model);
+  }
+  AddRectangle(4, 1.5, 5, 2.5, model);  // at a corner of none
+  AddRectangle(7, 3, 8, 4, model);
+  ExpectAreas(model, {50 - 6, 1, 1, 1, 1, 1, 1});
+}
+
+TEST(CutFaces, APaneInAWindowInAWallIsCutOutOfBoth) {
+  PolygonModel model;
+  AddRectangle(0, 0, 10, 5, model);
+  AddRectangle(2, 1, 4, 3, model);
+  AddRectangle(2.5, 1.5, 3.5, 2.5, model);
+  ExpectAreas(model, {46, 3, 1});
+}
+
+TEST(CutFaces, AWallThatFallsToPiecesOrVanishesStaysAndIsTold) {
+  PolygonModel in_two;
+  AddRectangle(0, 0, 10, 5, in_two);
+  AddRectangle(4, 0, 5, 5, in_two);
+  ExpectAreas(in_two, {50, 5});
+  PolygonModel covered;
+  AddRectangle(0, 0, 10, 5, covered);
+  AddRectangle(0, 0, 4, 5, covered);
+  AddRectangle(4, 0, 10, 5, covered);
+  ExpectAreas(covered, {50, 20, 30});
+  std::vector<FaceTexture> no_textures;
+  EXPECT_THAT(MendFaces("m.osu", {}, covered, no_textures).warnings,
+              ElementsAre(HasSubstr("it is chance which of the two is seen there")));
+}
+
+TEST(CutFaces, FarFromTheOriginAndOffByRoundingToo) {
+  PolygonModel model;
+  AddRectangle(0, 0, 10, 5, model);
+  AddRectangle(4, 1e-9, 5, 2, model);
+  AddRectangle(5 + 1e-9, 1, 6, 2, model);
+  for (Eigen::Vector3d& point : model.points_in_world) {
+    point += Eigen::Vector3d(4.5e5, 5.4e6, 300);
+  }
+  ExpectAreas(model, {47, 2, 1});
 }
 
 }  // namespace
