@@ -281,7 +281,6 @@ int RenderElevations(const ElevationArguments& arguments,
   const std::vector<Drawing> drawings = MakeDrawings(arguments, textured.model);
   DrawingSources sources;
   if (!folder.empty()) sources = ReadDrawingSources(folder, textured, with_layers);
-  PaintUnphotographed(sources, textured);
   Renderer renderer(textured);
   std::vector<std::string> all_warnings = warnings;
   for (const Drawing& drawing : drawings) {

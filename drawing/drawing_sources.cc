@@ -122,21 +122,4 @@ DrawingSources ReadDrawingSources(const fs::path& folder,
   return sources;
 }
 
-void PaintUnphotographed(const DrawingSources& sources, TexturedModel& textured) {
-  constexpr uint8_t kGrey = 172;
-  // Compression leaves black not quite so; what is next to a photograph's texels has their colour.
-  constexpr uint8_t kBlack = 16;
-  for (size_t i = 0; i < sources.provenance.size(); ++i) {
-    const std::vector<uint16_t>& numbers = sources.provenance[i].values;
-    std::vector<uint8_t>& colours = textured.pages[i].srgb8.values;
-    for (size_t texel = 0; texel < numbers.size(); ++texel) {
-      uint8_t* colour = &colours[3 * texel];
-      if (numbers[texel] != kProvenanceNone || *std::max_element(colour, colour + 3) > kBlack) {
-        continue;
-      }
-      std::fill(colour, colour + 3, kGrey);
-    }
-  }
-}
-
 }  // namespace groundglass

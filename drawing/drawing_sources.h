@@ -40,8 +40,4 @@ DrawingSources ReadDrawingSources(const std::filesystem::path& folder,
                                   const TexturedModel& textured,
                                   bool needs_provenance);
 
-// Gives texels that no photograph shows, which texturing leaves black, the grey of faces that none
-// shows: a black wall would be taken for what is there. Nothing without provenance.
-void PaintUnphotographed(const DrawingSources& sources, TexturedModel& textured);
-
 }  // namespace groundglass

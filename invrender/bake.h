@@ -44,7 +44,7 @@ struct BakeResult {
 };
 
 // Inverse rendering (Thorman 1988, chapter 4): every texel of every face is looked up through the
-// exact camera in the photographs that see it. Texels that no photograph shows are black, with
+// exact camera in the photographs that see it. Texels that no photograph shows are grey, with
 // provenance 0; a face that none shows has no texture. Throws Error for an image that cannot be
 // read or does not fit its camera.
 BakeResult BakeTextures(const PolygonModel& model,

@@ -2,7 +2,10 @@
 // Part of Groundglass.
 #include "invrender/compose/dilate.h"
 
+#include "scene/textured_model.h"
+
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace groundglass {
@@ -109,6 +112,8 @@ void Place(const Chart& chart,
            int gutter_texels,
            TexturePage& page,
            Raster<Code>& page_srgb) {
+  constexpr int kScale = std::numeric_limits<Code>::max() / 255;
+  const auto open_code = static_cast<Code>(kScale * kNoPhotographSrgb8);
   const int width = chart.width_texels + 2 * gutter_texels;
   const int height = chart.height_texels + 2 * gutter_texels;
   Raster<Code> srgb(width, height, 3);
@@ -122,10 +127,13 @@ void Place(const Chart& chart,
       const auto state = static_cast<TexelState>(*pixels.states.At(x, y));
       if (state == TexelState::kOutside) continue;
       *wanted.At(to_x, to_y) = 0;
-      if (state == TexelState::kOpen) continue;
+      *known.At(to_x, to_y) = 1;
+      if (state == TexelState::kOpen) {
+        std::fill_n(srgb.At(to_x, to_y), 3, open_code);
+        continue;
+      }
       std::copy_n(chart_srgb.At(x, y), 3, srgb.At(to_x, to_y));
       *provenance.At(to_x, to_y) = *pixels.provenance.At(x, y);
-      *known.At(to_x, to_y) = 1;
     }
   }
   Dilate(srgb, provenance, known, wanted, true);

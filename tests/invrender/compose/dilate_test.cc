@@ -95,10 +95,11 @@ TEST(PlaceOnPage, RepeatsTheBorderInTheGutterOnly) {
   page.provenance = Image16(8, 7, 1);
   PlaceOnPage(chart, pixels, 2, page);
   EXPECT_EQ(*page.srgb8.At(3, 2), 100);
-  EXPECT_EQ(*page.srgb8.At(4, 2), 0);  // open stays black
+  EXPECT_EQ(*page.srgb8.At(4, 2), kNoPhotographSrgb8);  // open
   EXPECT_EQ(*page.provenance.At(4, 2), kProvenanceNone);
   EXPECT_EQ(*page.srgb8.At(1, 0), 100);  // the gutter's corner
   EXPECT_EQ(*page.srgb8.At(6, 5), 100);
+  EXPECT_EQ(*page.srgb8.At(6, 0), kNoPhotographSrgb8);
   EXPECT_EQ(*page.provenance.At(1, 0), kProvenanceNone);
   EXPECT_EQ(*page.srgb8.At(0, 0), 0);  // beyond it
   EXPECT_EQ(*page.srgb8.At(7, 6), 0);
