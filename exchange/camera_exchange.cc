@@ -4,6 +4,7 @@
 
 #include "exchange/export_folder.h"
 #include "exchange/formats.h"
+#include "exchange/geodetic.h"
 #include "scene/error.h"
 #include "scene/formats/given_cameras.h"
 #include "scene/formats/image_io.h"
@@ -144,6 +145,7 @@ ExchangeResult WriteCamerasAs(std::string_view format_name,
   if (!source.model_file.empty()) scene.model_file = fs::absolute(source.model_file);
   scene.registrations = source.registrations;
   const fs::path out_path = fs::absolute(out);
+  if (format->is_on_globe) NeedGeoreference(scene, out_path);
   if (format->is_folder) RequireExportFolder(out_path, *format);
   const std::vector<std::string> names = NamesOf(source);
   CameraPreparation preparation(*format, source, out_path);

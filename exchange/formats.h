@@ -50,6 +50,7 @@ struct CameraFormat {
   bool is_folder = false;          // `out` is a folder
   CameraNeeds needs = {};          // what it cannot hold
   bool keeps_pictures = false;     // pictures lie beside the file or in it
+  bool is_on_globe = false;        // the model must say where on Earth it stands
   std::string_view ending = {};    // of files that are read: ".mlp"
   FormatCameras format = nullptr;  // null: COLMAP's text, which WriteColmapModel writes
   ReadCameras read = nullptr;

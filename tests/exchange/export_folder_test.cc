@@ -57,6 +57,14 @@ TEST(ExportFolder, SidecarsAreNotExchangedForOthers) {
   WriteCamerasAs("fspy", source, folder / "sidecars");
 }
 
+TEST(ExportFolder, WithoutAPlaceOnEarthNoPictureIsWritten) {
+  const TemporaryFolder folder;
+  const ExchangeSource source = OnePhotograph(folder);
+  EXPECT_THAT(ThrownMessage([&] { WriteCamerasAs("kml", source, folder / "globe/s.kml"); }),
+              HasSubstr("does not say where on Earth it is"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "globe"));
+}
+
 TEST(ExportFolder, CamerasOfRejectedPhotographsAreLeftOut) {
   const TemporaryFolder folder;
   ExchangeSource source = OnePhotograph(folder);
