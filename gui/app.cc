@@ -56,7 +56,7 @@ App::App(const WindowOptions& options, Document document)
   window_.SetTextScale(text_scale_);
   LayOut();
   eye_ = FirstEye(session_.model(), static_cast<double>(pane_.width) / pane_.height);
-  offers_left_work_ = !session_.FindLeftWork().empty();
+  FindLeftWork();
 }
 
 double App::NowMs() const {

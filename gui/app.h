@@ -96,6 +96,8 @@ class App {
   bool HasJobs() const;
   void LayOut();
   void Quit();
+  // questions.cc
+  void FindLeftWork();
 
   // app_input.cc: keys and the mouse.
   void HandleKey(const SDL_KeyboardEvent& key);
@@ -257,6 +259,8 @@ class App {
   bool asks_to_overwrite_mask_ = false;
   bool asks_reason_ = false;
   bool offers_left_work_ = false;
+  std::string left_work_of_;  // whose it is: tags and pins, masks, what is left out
+  LeftMasks left_masks_;
   bool says_yes_ = false;  // to the question that is asked, by key
   bool says_no_ = false;
   int frames_to_draw_ = 3;  // ImGui needs some after a change

@@ -5,6 +5,8 @@
 #include <imgui/imgui.h>
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -19,7 +21,31 @@ void Ask(const char* title, bool& asked, const Draw& draw) {
   ImGui::EndPopup();
 }
 
+std::string Listed(const std::vector<std::string>& words, const char* between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
 }  // namespace
+
+// What an earlier session did not save is offered; what cannot be is told.
+void App::FindLeftWork() {
+  std::vector<std::string> tags;
+  for (const auto& [name, work] : session_.FindLeftWork()) tags.push_back(name);
+  left_masks_ = masks_.FindLeftWork();
+  std::vector<std::string> masks;
+  for (const auto& [photograph, steps] : left_masks_.steps) {
+    masks.push_back(session_.photographs()[photograph].name);
+  }
+  std::vector<std::string> lines;
+  if (!tags.empty()) lines.push_back("Tags and pins: " + Listed(tags, ", "));
+  if (!masks.empty()) lines.push_back("Painted masks: " + Listed(masks, ", "));
+  offers_left_work_ = !lines.empty();
+  lines.insert(lines.end(), left_masks_.left_out.begin(), left_masks_.left_out.end());
+  left_work_of_ = Listed(lines, "\n");
+  message_ = Listed(left_masks_.left_out, "; ");
+}
 
 void App::DrawQuestions() {
   Ask("Unsaved work", asks_to_quit_, [&] {
@@ -65,13 +91,16 @@ void App::DrawQuestions() {
   });
   Ask("Unsaved work of an earlier session", offers_left_work_, [&] {
     ImGui::Text("There is unsaved work of %s.", session_.LeftWorkIsOf().c_str());
+    ImGui::TextUnformatted(left_work_of_.c_str());
     if (ImGui::Button("Take it") || says_yes_) {
       session_.TakeLeftWork();
+      masks_.TakeLeftWork(left_masks_);
       offers_left_work_ = false;
     }
     ImGui::SameLine();
     if (ImGui::Button("Drop it") || says_no_) {
       session_.DropLeftWork();
+      masks_.DropLeftWork();
       offers_left_work_ = false;
     }
   });

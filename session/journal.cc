@@ -9,7 +9,9 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -41,8 +43,38 @@ std::string NameOf(const fs::path& folder) {
   return name.size() > kLongestName ? name.substr(name.size() - kLongestName) : name;
 }
 
+// Stands where a work has its JSON, so that earlier versions leave it out.
+constexpr std::string_view kMaskMark = "mask\t";
+
 std::string LineOf(const std::string& photograph, const PhotographWork& work) {
   return photograph + "\t" + FormatWork(work) + "\n";
+}
+
+std::string LineOf(const std::string& photograph, const JournalMaskStep& step) {
+  return photograph + "\t" + std::string(kMaskMark) + step.mask_key + "\t" +
+         FormatMaskStep(step.step) + "\n";
+}
+
+bool IsOfMask(const std::string& line) {
+  const size_t tab = line.find('\t');
+  return tab != std::string::npos && line.compare(tab + 1, kMaskMark.size(), kMaskMark) == 0;
+}
+
+// Throws Error for a line that is none.
+void ReadLine(const std::string& line, JournalContents& contents) {
+  const size_t tab = line.find('\t');
+  if (tab == std::string::npos) throw Error("not a line of a journal");
+  const std::string photograph = line.substr(0, tab);
+  if (!IsOfMask(line)) {
+    contents.works[photograph] = ParseWork(line.substr(tab + 1));
+    return;
+  }
+  const size_t key = tab + 1 + kMaskMark.size();
+  const size_t key_end = line.find('\t', key);
+  if (key_end == std::string::npos) throw Error("not a line of a journal");
+  JournalMaskStep step = {line.substr(key, key_end - key),
+                          ParseMaskStep(std::string_view(line).substr(key_end + 1))};
+  contents.mask_steps[photograph].push_back(std::move(step));
 }
 
 }  // namespace
@@ -51,19 +83,19 @@ fs::path Journal::PlaceFor(const fs::path& scene_folder) {
   return StateFolder() / "groundglass" / (NameOf(scene_folder) + ".journal");
 }
 
-std::map<std::string, PhotographWork> Journal::Read() const {
-  std::map<std::string, PhotographWork> works;
+JournalContents Journal::Read() const {
+  JournalContents contents;
   std::ifstream stream(file_, std::ios::binary);
   for (std::string line; std::getline(stream, line);) {
-    const size_t tab = line.find('\t');
-    if (tab == std::string::npos || stream.eof()) continue;
+    if (line.empty()) continue;
     try {
-      works[line.substr(0, tab)] = ParseWork(line.substr(tab + 1));
+      if (stream.eof()) throw Error("a line without its end");
+      ReadLine(line, contents);
     } catch (const Error&) {
-      // A line that was cut short, or another version's.
+      ++contents.num_unreadable;
     }
   }
-  return works;
+  return contents;
 }
 
 std::string Journal::LastStepAt() const {
@@ -81,26 +113,64 @@ std::string Journal::LastStepAt() const {
   return text;
 }
 
-void Journal::Append(const std::string& photograph, const PhotographWork& work) const {
+void Journal::AppendLine(const std::string& line) const {
+  if (file_.empty()) return;
   std::error_code ignored;
   fs::create_directories(file_.parent_path(), ignored);
+  // A line that an earlier session could not finish must not take this one with it.
+  std::ifstream before(file_, std::ios::binary | std::ios::ate);
+  bool is_cut = before && before.tellg() > 0;
+  if (is_cut) {
+    before.seekg(-1, std::ios::end);
+    is_cut = before.get() != '\n';
+  }
   std::ofstream stream(file_, std::ios::binary | std::ios::app);
-  stream << LineOf(photograph, work) << std::flush;
+  if (is_cut) stream << '\n';
+  stream << line << std::flush;
 }
 
-void Journal::Restart(const std::map<std::string, PhotographWork>& unsaved) const {
-  std::error_code ignored;
-  if (unsaved.empty()) {
-    fs::remove(file_, ignored);
+void Journal::Append(const std::string& photograph, const PhotographWork& work) const {
+  AppendLine(LineOf(photograph, work));
+}
+
+void Journal::Append(const std::string& photograph, const JournalMaskStep& step) const {
+  AppendLine(LineOf(photograph, step));
+}
+
+void Journal::Restart(bool keeps_masks, const std::string& lines) const {
+  if (file_.empty()) return;
+  std::string text;
+  std::ifstream stream(file_, std::ios::binary);
+  for (std::string line; std::getline(stream, line);) {
+    if (!stream.eof() && !line.empty() && IsOfMask(line) == keeps_masks) text += line + "\n";
+  }
+  text += lines;
+  if (text.empty()) {
+    Remove();
     return;
   }
-  std::string text;
-  for (const auto& [photograph, work] : unsaved) text += LineOf(photograph, work);
   try {
     WriteFileAtomically(file_, text);
   } catch (const Error&) {
     // Without a place for a journal there is none.
   }
+}
+
+void Journal::RestartWorks(const std::map<std::string, PhotographWork>& unsaved) const {
+  std::string lines;
+  for (const auto& [photograph, work] : unsaved) lines += LineOf(photograph, work);
+  Restart(true, lines);
+}
+
+void Journal::RestartMasks(const std::map<std::string, JournalMaskStep>& unsaved) const {
+  std::string lines;
+  for (const auto& [photograph, step] : unsaved) lines += LineOf(photograph, step);
+  Restart(false, lines);
+}
+
+void Journal::Remove() const {
+  std::error_code ignored;
+  if (!file_.empty()) fs::remove(file_, ignored);
 }
 
 }  // namespace groundglass

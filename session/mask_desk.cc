@@ -5,12 +5,25 @@
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/ignore_mask.h"
+#include "scene/formats/output_folder.h"
 #include "scene/text.h"
 #include "session/file_bytes.h"
 
 namespace groundglass {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+std::string UnsavedSteps(int count) {
+  return std::to_string(count) + (count == 1 ? " unsaved step" : " unsaved steps");
+}
+
+}  // namespace
+
+std::string MaskKey(const std::optional<std::string>& bytes) {
+  return bytes ? HashText(*bytes) : "none";
+}
 
 MaskPaint& MaskDesk::Paint(int photograph) {
   const auto open = desks_.find(photograph);
@@ -23,8 +36,13 @@ MaskPaint& MaskDesk::Paint(int photograph) {
   if (bytes) ignore = ReadIgnoreMask(file, of.size);
   MaskPaint paint(of.size, std::move(ignore));
   const Image8 loaded = paint.ignore();
-  return desks_.emplace(photograph, Desk{std::move(paint), loaded, loaded, file, bytes, bytes})
-      .first->second.paint;
+  Desk desk = {std::move(paint), loaded, loaded, file, bytes, bytes, MaskKey(bytes)};
+  Desk& opened = desks_.emplace(photograph, std::move(desk)).first->second;
+  opened.paint.TellSteps([this, photograph](const MaskStep& step) {
+    session_.journal().Append(session_.photographs()[photograph].name,
+                              JournalMaskStep{desks_.at(photograph).key, step});
+  });
+  return opened.paint;
 }
 
 bool MaskDesk::IsUnsaved(int photograph) const {
@@ -71,13 +89,91 @@ SaveResult MaskDesk::Save(int photograph, bool over_others) {
       fs::remove(desk.file);
     }
     desk.bytes_on_disk = bytes;
+    desk.key = MaskKey(bytes);
     session_.SetMaskFile(photograph, bytes ? std::optional<fs::path>(desk.file) : std::nullopt);
   } catch (const std::exception& error) {
     return {SaveResult::Kind::kFailed, std::string("not saved: ") + error.what()};
   }
   desk.saved = desk.paint.ignore();
   desk.compared_version = -1;
+  RestartJournal();
   return {SaveResult::Kind::kSaved, "the mask of " + name + " is saved: " + desk.file.string()};
+}
+
+// With what is unsaved now, each mask in one step.
+void MaskDesk::RestartJournal() const {
+  std::map<std::string, JournalMaskStep> unsaved;
+  for (const auto& [photograph, desk] : desks_) {
+    const Image8& ignore = desk.paint.ignore();
+    if (const std::optional<MaskPart> part = FindChangedPart(desk.saved, ignore)) {
+      const std::string& name = session_.photographs()[photograph].name;
+      unsaved[name] = {desk.key, MaskStepOf(ignore, *part)};
+    }
+  }
+  session_.journal().RestartMasks(unsaved);
+}
+
+// Of one photograph.
+LeftMasks MaskDesk::CheckedSteps(int photograph, const std::vector<JournalMaskStep>& steps) {
+  LeftMasks left;
+  const SessionPhotograph& of = session_.photographs()[photograph];
+  const std::string mask = "the mask of " + of.name;
+  int num_others = 0;
+  int num_unfit = 0;
+  try {
+    Image8 ignore = Paint(photograph).ignore();
+    std::vector<MaskStep> fit;
+    for (const JournalMaskStep& journalled : steps) {
+      if (journalled.mask_key != desks_.at(photograph).key) {
+        ++num_others;
+      } else if (!Fits(journalled.step, of.size)) {
+        ++num_unfit;
+      } else {
+        fit.push_back(journalled.step);
+        PutMaskStep(journalled.step, ignore);
+      }
+    }
+    if (ignore.values != Paint(photograph).ignore().values) left.steps[photograph] = fit;
+  } catch (const Error& error) {
+    left.left_out.push_back(mask + ": " + UnsavedSteps(static_cast<int>(steps.size())) +
+                            " left out: " + error.what());
+  }
+  if (num_others > 0) {
+    left.left_out.push_back(mask + ": " + UnsavedSteps(num_others) +
+                            " left out: somebody else has changed it since");
+  }
+  if (num_unfit > 0) {
+    left.left_out.push_back(mask + ": " + UnsavedSteps(num_unfit) +
+                            " left out: they do not fit the photograph");
+  }
+  return left;
+}
+
+LeftMasks MaskDesk::FindLeftWork() {
+  LeftMasks left;
+  const JournalContents contents = session_.journal().Read();
+  for (const auto& [name, steps] : contents.mask_steps) {
+    const std::optional<int> photograph = session_.FindPhotograph(name);
+    if (!photograph) {
+      left.left_out.push_back("the mask of " + name + ": " +
+                              UnsavedSteps(static_cast<int>(steps.size())) +
+                              " left out: there is no such photograph any more");
+      continue;
+    }
+    LeftMasks of = CheckedSteps(*photograph, steps);
+    left.steps.merge(of.steps);
+    left.left_out.insert(left.left_out.end(), of.left_out.begin(), of.left_out.end());
+  }
+  if (contents.num_unreadable > 0) {
+    left.left_out.push_back("the journal: " + UnsavedSteps(contents.num_unreadable) +
+                            " left out: cut short, or another version's");
+  }
+  return left;
+}
+
+void MaskDesk::TakeLeftWork(const LeftMasks& left) {
+  for (const auto& [photograph, steps] : left.steps) Paint(photograph).Put(steps);
+  RestartJournal();
 }
 
 }  // namespace groundglass

@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <optional>
 
 namespace groundglass {
 namespace {
@@ -168,53 +171,40 @@ void MaskPaint::Flood(const Image8& srgb8, const Eigen::Vector2d& from_px, bool 
   EndStroke();
 }
 
+void MaskPaint::Put(const std::vector<MaskStep>& steps) {
+  BeginStroke();
+  for (const MaskStep& step : steps) PutMaskStep(step, ignore_);
+  ++version_;
+  EndStroke();
+}
+
 // What the stroke changed, as a step.
 void MaskPaint::Keep() {
-  int left = ignore_.width;
-  int right = -1;
-  int top = ignore_.height;
-  int bottom = -1;
-  for (int y = 0; y < ignore_.height; ++y) {
-    for (int x = 0; x < ignore_.width; ++x) {
-      if (*ignore_.At(x, y) == *before_stroke_.At(x, y)) continue;
-      left = std::min(left, x);
-      right = std::max(right, x);
-      top = std::min(top, y);
-      bottom = std::max(bottom, y);
-    }
-  }
-  if (right < 0) return;
-  Patch patch = {left, top, right - left + 1, bottom - top + 1, {}, {}};
-  for (int y = top; y <= bottom; ++y) {
-    const auto append = [&](const Image8& from, std::vector<uint8_t>& to) {
-      to.insert(to.end(), from.At(left, y), from.At(left, y) + patch.width);
-    };
-    append(before_stroke_, patch.before);
-    append(ignore_, patch.after);
-  }
-  done_.push_back(std::move(patch));
+  const std::optional<MaskPart> part = FindChangedPart(before_stroke_, ignore_);
+  if (!part) return;
+  done_.push_back({MaskStepOf(before_stroke_, *part), MaskStepOf(ignore_, *part)});
   undone_.clear();
   size_t bytes = 0;
   for (size_t i = done_.size(); i > 0; --i) {
-    bytes += 2 * done_[i - 1].before.size();
+    const Change& change = done_[i - 1];
+    bytes += sizeof(int) * (change.before.runs.size() + change.after.runs.size());
     if (bytes <= options_.max_history_bytes || i == done_.size()) continue;
     done_.erase(done_.begin(), done_.begin() + static_cast<std::ptrdiff_t>(i));
     break;
   }
+  if (on_step_) on_step_(done_.back().after);
 }
 
-void MaskPaint::Put(const Patch& patch, const std::vector<uint8_t>& values) {
-  for (int y = 0; y < patch.height; ++y) {
-    const auto row = values.begin() + static_cast<std::ptrdiff_t>(y) * patch.width;
-    std::copy(row, row + patch.width, ignore_.At(patch.x, patch.y + y));
-  }
+void MaskPaint::Show(const MaskStep& step) {
+  PutMaskStep(step, ignore_);
   ++version_;
+  if (on_step_) on_step_(step);
 }
 
 bool MaskPaint::Undo() {
   EndStroke();
   if (done_.empty()) return false;
-  Put(done_.back(), done_.back().before);
+  Show(done_.back().before);
   undone_.push_back(std::move(done_.back()));
   done_.pop_back();
   return true;
@@ -223,7 +213,7 @@ bool MaskPaint::Undo() {
 bool MaskPaint::Redo() {
   EndStroke();
   if (undone_.empty()) return false;
-  Put(undone_.back(), undone_.back().after);
+  Show(undone_.back().after);
   done_.push_back(std::move(undone_.back()));
   undone_.pop_back();
   return true;

@@ -4,10 +4,13 @@
 
 #include "scene/formats/image_io.h"
 #include "scene/image.h"
+#include "session/mask_step.h"
 
 #include <Eigen/Dense>
 
-#include <cstdint>
+#include <cstddef>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace groundglass {
@@ -49,21 +52,23 @@ class MaskPaint {
   // From a place up to the edges of the picture (of the mask's size); one step.
   void Flood(const Image8& srgb8, const Eigen::Vector2d& from_px, bool is_ignored);
 
+  // Steps that all fit, one after the other; one step.
+  void Put(const std::vector<MaskStep>& steps);
+
   bool Undo();  // false if there is nothing to undo
   bool Redo();
   int UndoDepth() const { return static_cast<int>(done_.size()); }
+  // Is told of every step once it is done, and of every one that is undone or done again: what the
+  // part that it changed has become.
+  void TellSteps(std::function<void(const MaskStep&)> on_step) { on_step_ = std::move(on_step); }
 
  private:
-  // A part of the mask, and its values before and after.
-  struct Patch {
-    int x = 0;
-    int y = 0;
-    int width = 0;
-    int height = 0;
-    std::vector<uint8_t> before;
-    std::vector<uint8_t> after;
+  // The same part of the mask before and after a step.
+  struct Change {
+    MaskStep before;
+    MaskStep after;
   };
-  void Put(const Patch& patch, const std::vector<uint8_t>& values);
+  void Show(const MaskStep& step);
   void Keep();
 
   MaskPaintOptions options_;
@@ -71,8 +76,9 @@ class MaskPaint {
   Image8 before_stroke_;
   bool is_stroke_ = false;
   int version_ = 0;
-  std::vector<Patch> done_;
-  std::vector<Patch> undone_;
+  std::vector<Change> done_;
+  std::vector<Change> undone_;
+  std::function<void(const MaskStep&)> on_step_;
 };
 
 }  // namespace groundglass

@@ -57,8 +57,7 @@ Session::Session(const Scene& scene, const fs::path& journal_file, const Session
     : model_(scene.model),
       options_(options),
       pins_file_(scene.folder / "pins.points"),
-      journal_(journal_file),
-      has_journal_(!journal_file.empty()) {
+      journal_(journal_file) {
   options_.Check();
   options_.solver.prior = PriorSuitedTo(model_, options_.solver.prior);
   if (!scene.camera_files.empty()) {
@@ -226,7 +225,7 @@ std::optional<Camera> Session::CameraOf(int photograph) const {
 
 void Session::Set(int photograph, PhotographWork next) {
   states_[photograph].current = std::move(next);
-  if (has_journal_) journal_.Append(photographs_[photograph].name, work(photograph));
+  journal_.Append(photographs_[photograph].name, work(photograph));
 }
 
 void Session::Change(int photograph, PhotographWork next, const std::string& gesture) {
@@ -281,8 +280,7 @@ std::map<std::string, PhotographWork> Session::Unsaved() const {
 
 std::map<std::string, PhotographWork> Session::FindLeftWork() const {
   std::map<std::string, PhotographWork> left;
-  if (!has_journal_) return left;
-  for (auto& [name, work] : journal_.Read()) {
+  for (const auto& [name, work] : journal_.Read().works) {
     const std::optional<int> photograph = FindPhotograph(name);
     if (!photograph || states_[*photograph].saved == work) continue;
     if (states_[*photograph].found == work) continue;
@@ -299,12 +297,6 @@ void Session::TakeLeftWork() {
   }
 }
 
-void Session::DropLeftWork() {
-  if (has_journal_) journal_.Restart(Unsaved());
-}
-
-void Session::ForgetJournal() {
-  if (has_journal_) journal_.Restart({});
-}
+void Session::DropLeftWork() { journal_.RestartWorks(Unsaved()); }
 
 }  // namespace groundglass

@@ -107,13 +107,16 @@ class Session {
   // are, too. over_others: also if somebody else has changed the files since they were read.
   SaveResult Save(int photograph, bool over_others = false);
 
-  // What an earlier session left unsaved, by photograph; taking it is one step for each.
+  // What an earlier session left unsaved of tags and pins, by photograph; taking it is one step for
+  // each.
   std::map<std::string, PhotographWork> FindLeftWork() const;
   std::string LeftWorkIsOf() const { return journal_.LastStepAt(); }
   void TakeLeftWork();
   void DropLeftWork();
+  // Where steps are kept, those of masks too (mask_desk.h).
+  const Journal& journal() const { return journal_; }
   // Nothing of what is unsaved is offered again.
-  void ForgetJournal();
+  void ForgetJournal() { journal_.Remove(); }
 
  private:
   struct State {
@@ -157,7 +160,6 @@ class Session {
   std::vector<SessionPhotograph> photographs_;
   std::vector<State> states_;
   Journal journal_;
-  bool has_journal_ = false;
   std::string gesture_;
 };
 

@@ -153,7 +153,7 @@ SaveResult Session::Save(int photograph, bool over_others) {
   state.saved = state.current;
   state.found.reset();
   EndGesture();
-  if (has_journal_) journal_.Restart(Unsaved());
+  journal_.RestartWorks(Unsaved());
   std::string message = saved.name + " saved: " + place.string();
   if (const auto tag = TagOf(photograph); tag && !tags_table_.empty()) {
     const std::string lost = TagsTable(tags_table_, *table_on_disk_).SigmasWithoutColumn(*tag);

@@ -172,6 +172,34 @@ TEST(Window, WorkOutlivesADisplayThatGoesInTheMiddleOfADrag) {
   EXPECT_TRUE(state["unsaved"].get<bool>());
 }
 
+TEST(Window, APaintedMaskOutlivesAProgramThatIsKilled) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s5"}, {});
+  const Desktop desktop(1280, 900);
+  nlohmann::json painted;
+  {
+    WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+    window.Key("F5");
+    const nlohmann::json state = window.Fence();
+    window.Drag(InWindow(state, {300, 300}), InWindow(state, {500, 300}));
+    painted = window.Fence();
+    ASSERT_GT(painted["masked"], 0);
+    // The program is killed here.
+  }
+  WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+  EXPECT_TRUE(window.Fence()["left_work"].get<bool>());
+  window.Key("Return");
+  window.Fence();
+  window.Key("F5");
+  nlohmann::json state = window.Fence();
+  EXPECT_EQ(state["masked"], painted["masked"]);
+  EXPECT_TRUE(state["mask_unsaved"].get<bool>());
+  window.Key("Ctrl+S");
+  state = window.Fence();
+  EXPECT_FALSE(state["mask_unsaved"].get<bool>()) << state["message"];
+  EXPECT_TRUE(fs::exists(folder / "hall/masks/s5.png"));
+}
+
 TEST(Window, WhatCannotBeSavedIsToldAndKept) {
   const TemporaryFolder folder;
   MakeScene(folder / "hall", {}, {"s5"});
