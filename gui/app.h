@@ -20,6 +20,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace groundglass {
@@ -115,7 +116,9 @@ class App {
   void Cancel();
   void FramePickedFace();
   void TurnByArrow(const std::string& key);
-  void FlyByKeys(double seconds);
+  // Where keys lead that are held at these places; nowhere unless they fly or walk now.
+  FlyWay FlyWayByKeys(std::string_view places_held) const;
+  void FlyByKeys(double now_ms);
 
   // app_view.cc: what is looked at, and how.
   bool IsInside() const { return inside_; }

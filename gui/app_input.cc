@@ -5,6 +5,7 @@
 #include <imgui/imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace groundglass {
@@ -12,10 +13,11 @@ namespace {
 
 constexpr double kArrowPx = 25;  // an arrow key turns as far as the hand does over so many px
 
-// The key as the bindings' table writes it, whatever the keyboard's layout.
+// The key as the bindings' table writes it, and where it is on the keyboard.
 KeyPress PressOf(const SDL_Keysym& key) {
   KeyPress press;
   press.key = SDL_GetKeyName(key.sym);
+  press.place = SDL_GetScancodeName(key.scancode);
   if (press.key == "Keypad Enter") press.key = "Return";
   press.shift = (key.mod & KMOD_SHIFT) != 0;
   press.ctrl = (key.mod & KMOD_CTRL) != 0;
@@ -37,7 +39,14 @@ std::vector<BindingPlace> App::Places() const {
 void App::HandleKey(const SDL_KeyboardEvent& key) {
   const KeyPress press = PressOf(key.keysym);
   if (key.type == SDL_KEYUP) {
-    if (press.key == "B") photograph_alone_ = false;
+    KeyPress alone;
+    alone.key = press.key;
+    alone.place = press.place;
+    constexpr std::array<BindingPlace, 1> kThere = {BindingPlace::kPhotograph};
+    const Binding* binding = FindBinding(alone, kThere);
+    if (binding != nullptr && binding->action == Action::kPhotographAlone) {
+      photograph_alone_ = false;
+    }
     return;
   }
   if (press.key == "Pause") {
@@ -49,6 +58,8 @@ void App::HandleKey(const SDL_KeyboardEvent& key) {
     says_no_ = press.key == "Escape";
     return;
   }
+  // What flies now means nothing else: E is up, and not the ellipsoids.
+  if (!press.ctrl && !press.alt && FlyWayByKeys(press.place) != FlyWay()) return;
   const std::vector<BindingPlace> places = Places();
   if (const Binding* binding = FindBinding(press, places)) Do(binding->action, press);
 }

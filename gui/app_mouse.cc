@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 namespace groundglass {
 namespace {
@@ -129,19 +131,27 @@ void App::HandleWheel(const SDL_MouseWheelEvent& wheel) {
   }
 }
 
-// W A S D Q E by their place on the keyboard, while the right button is held or one walks.
+// They lead somewhere while the right button is held, and while one walks, which knows no up and
+// down.
+FlyWay App::FlyWayByKeys(std::string_view places_held) const {
+  if (IsInside() || (gesture_ != Gesture::kLook && !is_walking_)) return {};
+  FlyWay way = FlyWayOf(places_held);
+  if (is_walking_) way.up = 0;
+  return way;
+}
+
 void App::FlyByKeys(double now_ms) {
   const double seconds = std::min(0.1, (now_ms - last_fly_ms_) / 1000);
   last_fly_ms_ = now_ms;
-  if (IsInside() || (gesture_ != Gesture::kLook && !is_walking_)) return;
-  if (ImGui::GetIO().WantTextInput) return;
+  // With Ctrl they are shortcuts.
+  const bool is_shortcut = (SDL_GetModState() & (KMOD_CTRL | KMOD_ALT)) != 0;
+  if (is_shortcut || IsCovered() || ImGui::GetIO().WantTextInput) return;
   const Uint8* keys = SDL_GetKeyboardState(nullptr);
-  const auto axis = [&](SDL_Scancode plus, SDL_Scancode minus) {
-    return static_cast<double>(keys[plus]) - static_cast<double>(keys[minus]);
-  };
-  const double forward = axis(SDL_SCANCODE_W, SDL_SCANCODE_S);
-  const double right = axis(SDL_SCANCODE_D, SDL_SCANCODE_A);
-  const double up = axis(SDL_SCANCODE_E, SDL_SCANCODE_Q);
+  std::string held;
+  for (const char place : kFlyPlaces) {
+    if (keys[SDL_GetScancodeFromName(std::string(1, place).c_str())] != 0) held += place;
+  }
+  const auto [forward, right, up] = FlyWayByKeys(held);
   if (forward == 0 && right == 0 && up == 0) return;
   const bool is_fast = (SDL_GetModState() & KMOD_SHIFT) != 0;
   if (is_walking_) {

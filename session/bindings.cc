@@ -93,6 +93,31 @@ bool HasKey(std::string_view keys, std::string_view key) {
   return false;
 }
 
+const Binding* Find(const std::string& text, std::span<const BindingPlace> places) {
+  // The narrower place, which stands later, decides.
+  for (size_t i = places.size(); i > 0; --i) {
+    for (const Binding& binding : kBindings) {
+      if (binding.place == places[i - 1] && HasKey(binding.keys, text)) return &binding;
+    }
+  }
+  return nullptr;
+}
+
+bool IsLetterOrDigit(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+}
+
+// Whether a key's place may say what the key itself does not.
+bool GoesByPlace(const KeyPress& press) {
+  if (press.key.empty() || press.place.empty()) return false;
+  const bool is_beyond_ascii = static_cast<unsigned char>(press.key[0]) >= 0x80;
+  if (is_beyond_ascii) return true;
+  // A sign stands in for another sign or a digit, and for no letter: Ctrl+' is not Ctrl+Q.
+  const bool is_sign = press.key.size() == 1 && !IsLetterOrDigit(press.key[0]);
+  const bool is_letters_place = press.place[0] >= 'A' && press.place[0] <= 'Z';
+  return is_sign && press.place.size() == 1 && !is_letters_place;
+}
+
 }  // namespace
 
 std::string_view WindowModeName(WindowMode mode) {
@@ -113,14 +138,21 @@ std::string KeyPress::Text() const {
 }
 
 const Binding* FindBinding(const KeyPress& press, std::span<const BindingPlace> places) {
-  const std::string text = press.Text();
-  // The narrower place, which stands later, decides.
-  for (size_t i = places.size(); i > 0; --i) {
-    for (const Binding& binding : kBindings) {
-      if (binding.place == places[i - 1] && HasKey(binding.keys, text)) return &binding;
-    }
-  }
-  return nullptr;
+  const Binding* binding = Find(press.Text(), places);
+  if (binding != nullptr || !GoesByPlace(press)) return binding;
+  KeyPress at_place = press;
+  at_place.key = press.place;
+  return Find(at_place.Text(), places);
+}
+
+FlyWay FlyWayOf(std::string_view places_held) {
+  const auto axis = [&](char plus, char minus) {
+    const auto is_held = [&](char place) {
+      return places_held.find(place) != std::string_view::npos ? 1 : 0;
+    };
+    return is_held(plus) - is_held(minus);
+  };
+  return {axis('W', 'S'), axis('D', 'A'), axis('E', 'Q')};
 }
 
 std::string FormatBindings() {
