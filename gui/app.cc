@@ -89,18 +89,13 @@ void App::HandleEvents() {
     frames_to_draw_ = std::max(frames_to_draw_, 2);
     if (event.type == WakeEvent()) continue;
     ImGui_ImplSDL2_ProcessEvent(&event);
-    const ImGuiIO& io = ImGui::GetIO();
     switch (event.type) {
       case SDL_QUIT:
         Quit();
         break;
       case SDL_KEYDOWN:
       case SDL_KEYUP:
-        // A text field keeps all but these to itself.
-        if (!io.WantTextInput || event.key.keysym.sym == SDLK_ESCAPE ||
-            event.key.keysym.sym == SDLK_F1 || event.key.keysym.sym == SDLK_PAUSE) {
-          HandleKey(event.key);
-        }
+        HandleKey(event.key);
         break;
       case SDL_MOUSEBUTTONDOWN:
       case SDL_MOUSEBUTTONUP:

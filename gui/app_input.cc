@@ -38,6 +38,8 @@ std::vector<BindingPlace> App::Places() const {
 
 void App::HandleKey(const SDL_KeyboardEvent& key) {
   const KeyPress press = PressOf(key.keysym);
+  // A text field keeps what is typed to itself; that of the help has the keyboard from the start.
+  if ((shows_help_ || ImGui::GetIO().WantTextInput) && IsForText(press)) return;
   if (key.type == SDL_KEYUP) {
     KeyPress alone;
     alone.key = press.key;

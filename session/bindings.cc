@@ -145,6 +145,17 @@ const Binding* FindBinding(const KeyPress& press, std::span<const BindingPlace> 
   return Find(at_place.Text(), places);
 }
 
+bool IsForText(const KeyPress& press) {
+  if (press.key == "Escape" || press.key == "Pause") return false;
+  const bool is_function =
+      press.key.size() > 1 && press.key[0] == 'F' && press.key[1] >= '1' && press.key[1] <= '9';
+  if (is_function) return false;
+  constexpr std::array<BindingPlace, 1> kAnywhere = {BindingPlace::kEverywhere};
+  const Binding* binding = FindBinding(press, kAnywhere);
+  return binding == nullptr ||
+         (binding->action != Action::kSave && binding->action != Action::kQuit);
+}
+
 FlyWay FlyWayOf(std::string_view places_held) {
   const auto axis = [&](char plus, char minus) {
     const auto is_held = [&](char place) {

@@ -113,6 +113,10 @@ struct KeyPress {
 // letters of keyboards that have no Latin ones.
 const Binding* FindBinding(const KeyPress& press, std::span<const BindingPlace> places);
 
+// Whether a text field that is being typed into keeps a press to itself: all but keys of functions,
+// Escape, and Ctrl with what is not text's own (saving, closing).
+bool IsForText(const KeyPress& press);
+
 // Keys that fly, by their place alone, for there the hand looks for them: W A S D Q E, which are
 // Z Q S D A E on AZERTY and , A O E ' . on Dvorak.
 inline constexpr std::string_view kFlyPlaces = "WASDQE";

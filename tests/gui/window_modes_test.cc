@@ -73,6 +73,41 @@ TEST(Window, AnOutputFolderStartsFromWhatWasFoundAndUndoGivesTheNotebookBack) {
   EXPECT_EQ(window.Wait(), 0);
 }
 
+TEST(Window, WhileTheKeysAreShownSavingSavesAndLettersAreSoughtFor) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s5"}, {});
+  const Desktop desktop(1280, 900);
+  WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+  window.Key("F3");
+  const nlohmann::json state = window.Fence();
+  const auto& corner = state["corners"][state["corners"].size() / 2];
+  const Eigen::Vector2d seen =
+      PaneCorner(state) + Eigen::Vector2d(corner[1].get<double>(), corner[2].get<double>());
+  window.Drag(seen, seen + Eigen::Vector2d(12, 7));
+  ASSERT_TRUE(window.Fence()["unsaved"].get<bool>());
+  // At once, before the field of the search has the keyboard: U would take the pin's say away.
+  window.Key("F1");
+  window.Key("U");
+  window.Key("Ctrl+S");
+  nlohmann::json saved = window.Fence();
+  EXPECT_FALSE(saved["unsaved"].get<bool>()) << saved["message"];
+  EXPECT_EQ(saved["undo_depth"], 1);
+  EXPECT_TRUE(saved["covered"].get<bool>()) << "the keys are still shown";
+  // And once it has it.
+  window.Key("Escape");
+  window.Fence();
+  window.Key("Ctrl+Z");
+  window.Fence();
+  window.Key("F1");
+  ASSERT_TRUE(window.Fence()["unsaved"].get<bool>());
+  window.Key("U");
+  window.Key("Ctrl+S");
+  saved = window.Fence();
+  EXPECT_FALSE(saved["unsaved"].get<bool>()) << saved["message"];
+  EXPECT_EQ(saved["undo_depth"], 0);
+  EXPECT_FALSE(fs::exists(folder / "hall/pins.points"));
+}
+
 TEST(Window, FacesAreColouredByWhatPhotographsSayOfThem) {
   const TemporaryFolder folder;
   MakeScene(folder / "hall", {"s4", "s5"}, {});

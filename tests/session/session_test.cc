@@ -349,6 +349,24 @@ TEST(Bindings, KeysFlyByTheirPlaceAlone) {
   EXPECT_EQ(FlyWayOf(""), FlyWay());
 }
 
+TEST(Bindings, ATextFieldLeavesSavingClosingAndFunctionsAlone) {
+  const auto with_ctrl = [](const char* key) {
+    KeyPress press = KeyAt(key, key);
+    press.ctrl = true;
+    return press;
+  };
+  for (const char* key : {"S", "Q"}) EXPECT_FALSE(IsForText(with_ctrl(key))) << key;
+  for (const char* key : {"A", "C", "V", "X", "Z", "Y", "Left"}) {
+    EXPECT_TRUE(IsForText(with_ctrl(key))) << key;
+  }
+  for (const char* key : {"F1", "F3", "F12", "Escape", "Pause"}) {
+    EXPECT_FALSE(IsForText(KeyAt(key, key))) << key;
+  }
+  for (const char* key : {"S", "F", "1", "Left", "Backspace", "Return"}) {
+    EXPECT_TRUE(IsForText(KeyAt(key, key))) << key;
+  }
+}
+
 TEST(Bindings, TheDocumentationHasThem) {
   EXPECT_THAT(Bytes(fs::path(GROUNDGLASS_SOURCE_DIR) / "docs" / "window.md"),
               HasSubstr(FormatBindings()));
