@@ -10,7 +10,9 @@
 #include <imgui/imgui.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -76,6 +78,7 @@ void App::Run() {
     Update();
     if (needs_frame_ || frames_to_draw_ > 0) DrawFrame();
     FinishFrame();
+    longest_turn_ms_ = std::max(longest_turn_ms_, NowMs() - turn_began_ms_);
   }
 }
 
@@ -83,34 +86,43 @@ void App::HandleEvents() {
   const bool is_restless = frames_to_draw_ > 0 || needs_frame_ || governor_.IsMoving(NowMs()) ||
                            is_playing_ || wants_fence_;
   SDL_Event event;
-  if (!SDL_WaitEventTimeout(&event, is_restless ? 4 : 250)) return;
+  const bool has_event = SDL_WaitEventTimeout(&event, is_restless ? 4 : 250) != 0;
+  turn_began_ms_ = NowMs();
+  if (!has_event) return;
   do {
     needs_frame_ = true;
     frames_to_draw_ = std::max(frames_to_draw_, 2);
     if (event.type == WakeEvent()) continue;
-    ImGui_ImplSDL2_ProcessEvent(&event);
-    switch (event.type) {
-      case SDL_QUIT:
-        Quit();
-        break;
-      case SDL_KEYDOWN:
-      case SDL_KEYUP:
-        HandleKey(event.key);
-        break;
-      case SDL_MOUSEBUTTONDOWN:
-      case SDL_MOUSEBUTTONUP:
-        HandleMouseButton(event.button);
-        break;
-      case SDL_MOUSEMOTION:
-        HandleMouseMotion(event.motion);
-        break;
-      case SDL_MOUSEWHEEL:
-        HandleWheel(event.wheel);
-        break;
-      default:
-        break;
+    if (!options_.test_log.empty()) {
+      answers_.Asked(NowMs() - static_cast<double>(SDL_GetTicks() - event.common.timestamp));
     }
+    HandleEvent(event);
   } while (SDL_PollEvent(&event));
+}
+
+void App::HandleEvent(const SDL_Event& event) {
+  ImGui_ImplSDL2_ProcessEvent(&event);
+  switch (event.type) {
+    case SDL_QUIT:
+      Quit();
+      break;
+    case SDL_KEYDOWN:
+    case SDL_KEYUP:
+      HandleKey(event.key);
+      break;
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP:
+      HandleMouseButton(event.button);
+      break;
+    case SDL_MOUSEMOTION:
+      HandleMouseMotion(event.motion);
+      break;
+    case SDL_MOUSEWHEEL:
+      HandleWheel(event.wheel);
+      break;
+    default:
+      break;
+  }
 }
 
 void App::LayOut() {
@@ -142,6 +154,7 @@ void App::Update() {
   FollowFlight();
   TakeAlignment();
   UpdateMap();
+  cache_.LetThumbnailsWait(governor_.IsMoving(now));
   for (auto& [photograph, thumbnail] : cache_.TakeThumbnails()) {
     thumbnails_[photograph] = window_.MakeTexture(thumbnail);
     needs_frame_ = true;
@@ -152,14 +165,18 @@ void App::Update() {
     governor_.Drew(drawn->quality, drawn->took_ms);
     picture_ = window_.MakeTexture(drawn->width_px, drawn->height_px, drawn->bgra);
     picture_size_ = {0, 0, drawn->width_px, drawn->height_px};
+    answers_.Drawn();
     needs_frame_ = true;
   }
   if (const std::string fault = worker_.Fault(); !fault.empty()) message_ = fault;
   PictureRequest request = MakeRequest();
   const bool is_same = posted_ && IsSamePicture(*posted_, request);
-  if (!is_same && !worker_.IsBusy()) {
+  if (is_same) {
+    answers_.NothingToDraw();
+  } else if (!worker_.IsBusy()) {
     posted_ = request;
     worker_.Post(std::move(request));
+    answers_.Posted();
   }
 }
 
@@ -176,6 +193,7 @@ void App::DrawFrame() {
   DrawPanels();
   window_.EndFrame();
   last_frame_ms_ = NowMs() - start;
+  answers_.Shown(NowMs());
   ++num_frames_;
 }
 
@@ -226,6 +244,9 @@ std::string App::DescribeState() {
       {"pictures", num_pictures_},
       {"frame_ms", last_frame_ms_},
       {"picture_ms", last_picture_ms_},
+      {"answers_ms", answers_.Take()},
+      {"longest_turn_ms", std::exchange(longest_turn_ms_, 0)},
+      {"thumbnails", thumbnails_.size()},
       {"left_work", offers_left_work_},
       {"gesture", static_cast<int>(gesture_)},
       {"armed", armed_point_.value_or(-1)},

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "ask/answer.h"
+#include "gui/answer_clock.h"
 #include "gui/background.h"
 #include "gui/document.h"
 #include "gui/look_maps.h"
@@ -89,6 +90,7 @@ class App {
   double NowMs() const;
   void WakeUp() const;
   void HandleEvents();
+  void HandleEvent(const SDL_Event& event);
   void Update();
   void DrawFrame();
   void FinishFrame();
@@ -283,6 +285,10 @@ class App {
   int num_pictures_ = 0;
   double last_frame_ms_ = 0;
   double last_picture_ms_ = 0;
+  // For tests and measurements alone: how long the window took, since it last said so.
+  AnswerClock answers_;
+  double turn_began_ms_ = 0;
+  double longest_turn_ms_ = 0;  // of the loop: input, changes and frame, without waiting
   std::map<int, TexturePtr> thumbnails_;
   std::optional<PictureRequest> posted_;
 

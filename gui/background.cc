@@ -6,9 +6,26 @@
 #include "scene/formats/image_io.h"
 #include "scene/reduce.h"
 
+#ifdef __linux__
+#include <sys/resource.h>
+#endif
+
 #include <algorithm>
+#include <utility>
 
 namespace groundglass {
+namespace {
+
+// The calling thread gives way to the others, and is not starved by them.
+void GiveWay() {
+#ifdef __linux__
+  // There 0 is the thread, and elsewhere the whole program.
+  constexpr int kLessUrgent = 10;
+  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kLessUrgent);
+#endif
+}
+
+}  // namespace
 
 PictureWorker::PictureWorker(const TexturedModel& model, std::function<void()> on_done)
     : on_done_(std::move(on_done)), thread_([this, &model] { Run(model); }) {}
@@ -89,7 +106,8 @@ PhotographCache::PhotographCache(std::vector<std::filesystem::path> files,
     : files_(std::move(files)),
       on_done_(std::move(on_done)),
       has_thumbnail_(files_.size(), false),
-      thread_([this] { Run(); }) {}
+      wanted_thread_([this] { ReadWanted(); }),
+      thumbnail_thread_([this] { MakeThumbnails(); }) {}
 
 PhotographCache::~PhotographCache() {
   {
@@ -97,7 +115,8 @@ PhotographCache::~PhotographCache() {
     is_ending_ = true;
   }
   wake_.notify_all();
-  thread_.join();
+  wanted_thread_.join();
+  thumbnail_thread_.join();
 }
 
 std::shared_ptr<const Image8> PhotographCache::Find(int photograph) {
@@ -131,52 +150,83 @@ bool PhotographCache::IsBusy() const {
   return !wanted_.empty();
 }
 
-std::optional<int> PhotographCache::NextToRead() const {
-  if (!wanted_.empty()) return wanted_.front();
+void PhotographCache::LetThumbnailsWait(bool do_wait) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (do_thumbnails_wait_ == do_wait) return;
+    do_thumbnails_wait_ = do_wait;
+  }
+  wake_.notify_all();
+}
+
+PhotographCache::Read PhotographCache::ReadOne(const std::filesystem::path& file) {
+  Read read;
+  try {
+    read.picture = ReadSrgb8(file);
+    const int width = std::min(kThumbnailWidth, read.picture.width);
+    const int height = std::max(1, read.picture.height * width / read.picture.width);
+    read.thumbnail = ReducedInLight(read.picture, width, height);
+  } catch (const std::exception& error) {
+    read.fault = error.what();
+  }
+  return read;
+}
+
+void PhotographCache::Keep(int photograph, Read read, bool is_wanted) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_wanted) std::erase(wanted_, photograph);
+    const bool is_first = !has_thumbnail_[photograph];
+    has_thumbnail_[photograph] = true;
+    if (!read.fault.empty()) {
+      faults_[photograph] = read.fault;
+    } else {
+      if (is_first) thumbnails_[photograph] = std::move(read.thumbnail);
+      if (is_wanted) {
+        whole_[photograph] = std::make_shared<const Image8>(std::move(read.picture));
+        order_.push_back(photograph);
+      }
+    }
+    while (order_.size() > kMostWhole) {
+      whole_.erase(order_.front());
+      order_.erase(order_.begin());
+    }
+  }
+  wake_.notify_all();  // small pictures wait for those that somebody asked for
+  on_done_();
+}
+
+void PhotographCache::ReadWanted() {
+  for (;;) {
+    int photograph = 0;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [&] { return is_ending_ || !wanted_.empty(); });
+      if (is_ending_) return;
+      photograph = wanted_.front();
+    }
+    Keep(photograph, ReadOne(files_[photograph]), true);
+  }
+}
+
+std::optional<int> PhotographCache::NextThumbnail() const {
+  if (do_thumbnails_wait_ || !wanted_.empty()) return std::nullopt;
   const auto without = std::find(has_thumbnail_.begin(), has_thumbnail_.end(), false);
   if (without == has_thumbnail_.end()) return std::nullopt;
   return static_cast<int>(without - has_thumbnail_.begin());
 }
 
-void PhotographCache::Run() {
+void PhotographCache::MakeThumbnails() {
+  GiveWay();
   for (;;) {
     int photograph = 0;
     {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return is_ending_ || NextToRead(); });
+      wake_.wait(lock, [&] { return is_ending_ || NextThumbnail(); });
       if (is_ending_) return;
-      photograph = *NextToRead();
+      photograph = *NextThumbnail();
     }
-    Image8 picture;
-    Image8 thumbnail;
-    std::string fault;
-    try {
-      picture = ReadSrgb8(files_[photograph]);
-      const int width = std::min(kThumbnailWidth, picture.width);
-      const int height = std::max(1, picture.height * width / picture.width);
-      thumbnail = ReducedInLight(picture, width, height);
-    } catch (const std::exception& error) {
-      fault = error.what();
-    }
-    {
-      const std::lock_guard lock(mutex_);
-      const bool was_wanted = std::erase(wanted_, photograph) > 0;
-      has_thumbnail_[photograph] = true;
-      if (!fault.empty()) {
-        faults_[photograph] = fault;
-      } else {
-        thumbnails_[photograph] = std::move(thumbnail);
-        if (was_wanted) {
-          whole_[photograph] = std::make_shared<const Image8>(std::move(picture));
-          order_.push_back(photograph);
-        }
-      }
-      while (order_.size() > kMostWhole) {
-        whole_.erase(order_.front());
-        order_.erase(order_.begin());
-      }
-    }
-    on_done_();
+    Keep(photograph, ReadOne(files_[photograph]), false);
   }
 }
 

@@ -47,8 +47,8 @@ class PictureWorker {
   std::thread thread_;
 };
 
-// Photographs, decoded on a thread of its own: those that are asked for first, then small pictures
-// of all of them. Keeps the last few whole.
+// Photographs, decoded on threads of their own: one for those that are asked for, of which the last
+// few are kept whole, and one for small pictures of all of them, which gives way to all else.
 class PhotographCache {
  public:
   PhotographCache(std::vector<std::filesystem::path> files, std::function<void()> on_done);
@@ -58,14 +58,25 @@ class PhotographCache {
   std::shared_ptr<const Image8> Find(int photograph);
   // Why it cannot be read; empty if it can, or nobody knows yet.
   std::string FaultOf(int photograph) const;
+  // While the hand moves something no further small picture is begun.
+  void LetThumbnailsWait(bool do_wait);
   // Small pictures that have come since this was last asked.
   std::map<int, Image8> TakeThumbnails();
   // Whether somebody waits for a photograph.
   bool IsBusy() const;
 
  private:
-  void Run();
-  std::optional<int> NextToRead() const;
+  // What came of reading one.
+  struct Read {
+    Image8 picture;
+    Image8 thumbnail;
+    std::string fault;
+  };
+  static Read ReadOne(const std::filesystem::path& file);
+  void ReadWanted();
+  void MakeThumbnails();
+  void Keep(int photograph, Read read, bool is_wanted);
+  std::optional<int> NextThumbnail() const;
 
   static constexpr size_t kMostWhole = 6;
   static constexpr int kThumbnailWidth = 160;
@@ -80,8 +91,10 @@ class PhotographCache {
   std::map<int, std::string> faults_;
   std::vector<bool> has_thumbnail_;
   std::map<int, Image8> thumbnails_;
+  bool do_thumbnails_wait_ = false;
   bool is_ending_ = false;
-  std::thread thread_;
+  std::thread wanted_thread_;
+  std::thread thumbnail_thread_;
 };
 
 }  // namespace groundglass

@@ -4,7 +4,9 @@
 
 #include <imgui/imgui.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace groundglass {
 
@@ -23,10 +25,11 @@ SDL_Texture* UploadImGuiFont(SDL_Renderer* renderer) {
 }
 
 void DrawImGui(SDL_Renderer* renderer, const ImDrawData& data) {
+  std::vector<ImDrawIdx> shifted;
   for (int i = 0; i < data.CmdListsCount; ++i) {
     const ImDrawList& list = *data.CmdLists[i];
     for (const ImDrawCmd& command : list.CmdBuffer) {
-      if (command.UserCallback != nullptr) continue;
+      if (command.UserCallback != nullptr || command.ElemCount == 0) continue;
       const ImVec4& clip = command.ClipRect;
       const SDL_Rect rect = {static_cast<int>(clip.x),
                              static_cast<int>(clip.y),
@@ -34,7 +37,15 @@ void DrawImGui(SDL_Renderer* renderer, const ImDrawData& data) {
                              static_cast<int>(clip.w - clip.y)};
       if (rect.w <= 0 || rect.h <= 0) continue;
       SDL_RenderSetClipRect(renderer, &rect);
-      const ImDrawVert* vertices = list.VtxBuffer.Data + command.VtxOffset;
+      // Only the corners that this command draws: SDL looks through all that it is given, and with
+      // hundreds of thumbnails there are hundreds of commands.
+      const ImDrawIdx* indices = list.IdxBuffer.Data + command.IdxOffset;
+      const auto [first, last] = std::minmax_element(indices, indices + command.ElemCount);
+      const ImDrawIdx lowest = *first;
+      const int num_corners = *last - lowest + 1;
+      shifted.assign(indices, indices + command.ElemCount);
+      for (ImDrawIdx& index : shifted) index = static_cast<ImDrawIdx>(index - lowest);
+      const ImDrawVert* vertices = list.VtxBuffer.Data + command.VtxOffset + lowest;
       const auto* bytes = reinterpret_cast<const char*>(vertices);
       SDL_RenderGeometryRaw(renderer,
                             static_cast<SDL_Texture*>(command.GetTexID()),
@@ -44,8 +55,8 @@ void DrawImGui(SDL_Renderer* renderer, const ImDrawData& data) {
                             sizeof(ImDrawVert),
                             reinterpret_cast<const float*>(bytes + offsetof(ImDrawVert, uv)),
                             sizeof(ImDrawVert),
-                            list.VtxBuffer.Size - static_cast<int>(command.VtxOffset),
-                            list.IdxBuffer.Data + command.IdxOffset,
+                            num_corners,
+                            shifted.data(),
                             static_cast<int>(command.ElemCount),
                             sizeof(ImDrawIdx));
     }

@@ -10,6 +10,8 @@
 namespace groundglass {
 namespace {
 
+constexpr int kMostStationsInFull = 100;  // while something moves
+
 ImVec2 OnScreen(const Pane& pane, const Eigen::Vector2d& pane_px) {
   return {static_cast<float>(pane.x + pane_px.x()), static_cast<float>(pane.y + pane_px.y())};
 }
@@ -42,7 +44,11 @@ void App::DrawStations() {
   const Camera camera = PaneCamera();
   const double size = 0.06 * ComputeBounds(session_.model()).Diagonal();
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  for (int i = 0; i < static_cast<int>(session_.photographs().size()); ++i) {
+  const int num_stations = static_cast<int>(session_.photographs().size());
+  // Pictures and names of hundreds are most of a frame's time: while something moves, lines will
+  // do.
+  const bool is_brief = num_stations > kMostStationsInFull && governor_.IsMoving(NowMs());
+  for (int i = 0; i < num_stations; ++i) {
     const std::optional<Camera>& written = WrittenCamera(i);
     const std::optional<Camera> found = BelievedCamera(i);
     if (!found) continue;
@@ -64,7 +70,8 @@ void App::DrawStations() {
     }
     const ImVec2 from = OnScreen(pane_, *apex_px);
     if (is_seen) {
-      if (const auto thumbnail = thumbnails_.find(i); thumbnail != thumbnails_.end()) {
+      const auto thumbnail = thumbnails_.find(i);
+      if (thumbnail != thumbnails_.end() && !is_brief) {
         list.AddImageQuad(thumbnail->second.get(), corners[0], corners[1], corners[2], corners[3]);
       }
       for (int c = 0; c < 4; ++c) {
@@ -79,6 +86,7 @@ void App::DrawStations() {
         list.AddRect(ImVec2(at.x - 3, at.y - 3), ImVec2(at.x + 3, at.y + 3), kOverlayGrey);
       }
     }
+    if (is_brief && i != photograph_) continue;
     OverlayText(ImVec2(from.x + 5, from.y + 3), colour, session_.photographs()[i].name);
   }
 }

@@ -10,9 +10,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <vector>
 
@@ -157,6 +159,30 @@ TEST(Window, FiveHundredPhotographsAreDrawnMovedAroundAndEntered) {
   window.Key("F3");
   const nlohmann::json inside = window.Fence();
   EXPECT_TRUE(inside["inside"].get<bool>());
+}
+
+TEST(Window, ThumbnailsWaitForTheHandAndComeAllTheSame) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s5"}, {});
+  constexpr int kPhotographs = 30;
+  for (int i = 1; i < kPhotographs; ++i) {
+    const std::string name = "p" + std::to_string(i);
+    fs::create_hard_link(folder / "hall/images/s5.jpg", folder / ("hall/images/" + name + ".jpg"));
+  }
+  const Desktop desktop(1280, 900);
+  WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+  // Entering one reads it before those that nobody has asked for.
+  window.Key("Right");
+  window.Key("F3");
+  nlohmann::json state = window.Fence();
+  EXPECT_TRUE(state["inside"].get<bool>());
+  window.Key("F2");
+  for (const char* key : {"Right", "Left"}) window.Key(key);
+  while (state["thumbnails"] != kPhotographs) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    state = window.Fence();
+  }
+  EXPECT_EQ(state["thumbnails"], kPhotographs);
 }
 
 TEST(Window, AScanOf24MegapixelsIsPinnedInItsOwnPixels) {
