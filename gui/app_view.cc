@@ -13,13 +13,19 @@ constexpr Srgb8Colour kCorrectedBlue = {86, 180, 233};
 constexpr Srgb8Colour kWrittenGrey = {190, 190, 190};
 constexpr Srgb8Colour kRivalPurple = {204, 121, 167};
 
-EdgeStyle StyleOf(Srgb8Colour colour, double width_px) {
+// Dashes and dots repeat what colours say.
+enum class Stroke { kWhole, kDashed, kDotted };
+
+EdgeStyle StyleOf(Srgb8Colour colour, double width_px, Stroke stroke = Stroke::kWhole) {
   EdgeStyle style;
   style.colour = colour;
   style.width_px = width_px;
   style.silhouette_width_px = 1.3 * width_px;
   style.casing_opacity = 0.6;
   style.casing_px = 0.9;
+  if (stroke == Stroke::kDashed) style.dash_px = 10;
+  if (stroke == Stroke::kDotted) style.dash_px = 3;
+  if (stroke != Stroke::kWhole) style.gap_px = 5;
   return style;
 }
 
@@ -84,15 +90,15 @@ PictureRequest App::MakeRequest() {
   if (photograph_alone_ || !shows_edges_) return request;
   const auto& written = WrittenCamera(photograph_);
   if (shows_written_ && written) {
-    request.layers.push_back(
-        {place_.InPicture(*written, pane_.width, pane_.height), StyleOf(kWrittenGrey, 1)});
+    request.layers.push_back({place_.InPicture(*written, pane_.width, pane_.height),
+                              StyleOf(kWrittenGrey, 1, Stroke::kDashed)});
   }
   const SessionPhotograph& photograph = session_.photographs()[photograph_];
   const auto& news = session_.work(photograph_).alignment;
   if (shows_rival_ && news && news->rival) {
     const Camera rival = CameraFromTag(*news->rival, photograph.size.width, photograph.size.height);
-    request.layers.push_back(
-        {place_.InPicture(rival, pane_.width, pane_.height), StyleOf(kRivalPurple, 1.3)});
+    request.layers.push_back({place_.InPicture(rival, pane_.width, pane_.height),
+                              StyleOf(kRivalPurple, 1.6, Stroke::kDotted)});
   }
   if (request.has_model) request.layers.push_back({request.camera, StyleOf(kCorrectedBlue, 1.3)});
   return request;

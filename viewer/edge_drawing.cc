@@ -3,6 +3,7 @@
 #include "viewer/edge_drawing.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace groundglass {
 
@@ -35,6 +36,40 @@ std::vector<Eigen::Vector2d> ProjectSpan(const Camera& camera,
   return points;
 }
 
+namespace {
+
+// The parts of a bent line that are drawn, each a straight piece.
+template <typename Draw>
+void ForEachDash(const std::vector<Eigen::Vector2d>& points,
+                 const EdgeStyle& style,
+                 const Draw& draw) {
+  const double period_px = style.dash_px + style.gap_px;
+  const bool is_whole = style.dash_px <= 0 || style.gap_px <= 0;
+  double done_px = 0;  // along the line
+  for (size_t i = 1; i < points.size(); ++i) {
+    const Eigen::Vector2d& start = points[i - 1];
+    const Eigen::Vector2d way = points[i] - start;
+    const double length_px = way.norm();
+    if (is_whole) {
+      draw(start, points[i]);
+      continue;
+    }
+    if (length_px == 0) continue;
+    const auto at = [&](double along_px) -> Eigen::Vector2d {
+      return start + way * std::clamp((along_px - done_px) / length_px, 0.0, 1.0);
+    };
+    for (double dash = std::floor(done_px / period_px); dash * period_px < done_px + length_px;
+         ++dash) {
+      const double from_px = std::max(done_px, dash * period_px);
+      const double to_px = std::min(done_px + length_px, dash * period_px + style.dash_px);
+      if (to_px > from_px) draw(at(from_px), at(to_px));
+    }
+    done_px += length_px;
+  }
+}
+
+}  // namespace
+
 void DrawEdges(Image8& srgb8,
                const std::vector<VisibleSpan>& spans,
                const Camera& camera,
@@ -46,12 +81,10 @@ void DrawEdges(Image8& srgb8,
   for (const VisibleSpan& span : spans) {
     const double width_px = span.is_silhouette ? style.silhouette_width_px : style.width_px;
     const auto points = ProjectSpan(camera, span.start_in_world, span.end_in_world);
-    for (size_t i = 1; i < points.size(); ++i) {
-      AddLine(line, points[i - 1], points[i], width_px);
-      if (has_casing) {
-        AddLine(casing, points[i - 1], points[i], width_px + 2 * style.casing_px);
-      }
-    }
+    ForEachDash(points, style, [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+      AddLine(line, from, to, width_px);
+      if (has_casing) AddLine(casing, from, to, width_px + 2 * style.casing_px);
+    });
   }
   if (has_casing) LayOver(srgb8, casing, style.casing_colour, style.casing_opacity);
   LayOver(srgb8, line, style.colour, style.opacity);

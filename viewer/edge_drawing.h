@@ -23,6 +23,9 @@ struct EdgeStyle {
   Srgb8Colour casing_colour = {16, 16, 20};
   double casing_opacity = 0;  // 0: no casing
   double casing_px = 0;       // on each side of the line
+  // Dashes so long, with round ends, and gaps between them; 0: the whole line.
+  double dash_px = 0;
+  double gap_px = 0;
 };
 
 // The unit in which line widths are counted, so that drawings look alike at all sizes: 1 px for a

@@ -48,6 +48,30 @@ TEST(LineDrawing, LinesOutsideThePictureLeaveItAlone) {
   for (const float value : coverage.values) EXPECT_EQ(value, 0);
 }
 
+TEST(EdgeDrawing, DashesAndGapsAreAsLongAsTheyAreToldAlongABentLineToo) {
+  Camera camera = MakeCamera({0, -10, 0}, {0, 0, 0}, 640, 480, 400);
+  for (const double k1 : {0.0, -0.2}) {
+    camera.k1 = k1;
+    VisibleSpan span;
+    span.start_in_world = {-6, 0, 4};
+    span.end_in_world = {6, 0, 4};
+    EdgeStyle style;
+    style.colour = {255, 255, 255};
+    style.width_px = style.silhouette_width_px = 2;
+    const auto ink = [&] {
+      Image8 picture(640, 480, 3);
+      DrawEdges(picture, {span}, camera, style);
+      return std::accumulate(picture.values.begin(), picture.values.end(), 0.0) / 255 / 3;
+    };
+    const double whole = ink();
+    style.dash_px = 20;
+    EXPECT_EQ(ink(), whole) << "without gaps";
+    style.gap_px = 40;
+    // Round ends stand out by less than half of the width.
+    EXPECT_NEAR(ink() / whole, (20 + 1.7) / 60, 0.03) << k1;
+  }
+}
+
 TEST(EdgeDrawing, BentLinesFollowTheLens) {
   Camera camera = MakeCamera({0, -10, 0}, {0, 0, 0}, 640, 480, 400);
   camera.k1 = -0.2;
