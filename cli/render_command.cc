@@ -7,6 +7,7 @@
 #include "cli/option_range.h"
 #include "invrender/tiles1988/tiles.h"
 #include "scene/error.h"
+#include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/model_io.h"
 #include "scene/formats/scene_folder.h"

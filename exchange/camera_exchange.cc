@@ -6,6 +6,7 @@
 #include "exchange/formats.h"
 #include "exchange/geodetic.h"
 #include "scene/error.h"
+#include "scene/formats/atomic_file.h"
 #include "scene/formats/given_cameras.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/image_paths.h"
