@@ -39,11 +39,11 @@ TEST(Obj, ReadsIndicesOfEveryKindAndAxes) {
   const auto file = folder.Write("m.obj",
                                  "# unit: m\no wall\nv 0 0 0 1.0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                                  "vt 0 0\nvn 0 0 1\ns off\nf 1/1/1 2/1/1 3/1/1 4/1/1\n"
-                                 "g roof top\nf -4//1 -3//1 -2//1\nl 1 2\n");
+                                 "g roof top\nf -2//1 -3//1 -4//1\nl 1 2\n");
   const ModelReading as_world = ReadModel(file);
   ASSERT_EQ(as_world.model.faces.size(), 2u);
   EXPECT_THAT(as_world.model.faces[0].points, ElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(as_world.model.faces[1].points, ElementsAre(0, 1, 2));
+  EXPECT_THAT(as_world.model.faces[1].points, ElementsAre(2, 1, 0));
   EXPECT_EQ(as_world.model.faces[0].name, "wall");
   EXPECT_EQ(as_world.model.faces[1].name, "roof top");
   EXPECT_EQ(as_world.model.unit, LengthUnit::kMetre);
