@@ -8,10 +8,12 @@
 #include "scene/frames.h"
 #include "scene/text.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -63,6 +65,7 @@ std::vector<Reading> MirrorsAboutItsMiddle(const AdviceContext& context, bool sh
 
 struct MirrorVerdict {
   std::optional<Reading> mirrored;  // that the pictures suit far better
+  std::optional<Reading> rival;     // and that they suit as well as this one
   bool is_better_as_read = true;    // than all that were tried
 };
 
@@ -71,17 +74,25 @@ MirrorVerdict FindMirror(const AdviceContext& context,
                          const std::vector<Reading>& candidates,
                          const std::vector<double>& as_read) {
   const std::vector<const Photograph*> photographs = SomePhotographs(context.scene);
+  // Of the mean fit, as elsewhere (advice_reading.cc).
+  constexpr double kClearMeanLead = 0.7;
   MirrorVerdict verdict;
-  double most = 0;
+  std::vector<std::pair<double, const Reading*>> better;
   for (const Reading& reading : candidates) {
     const Suitability suits = FindSuitability(context, photographs, reading.model, reading.retag);
     if (suits.plausible_share < 0.7) continue;
-    const std::vector<double> fits = judge.Fit(ReadOtherwise(context.scene.model, reading.model));
+    const std::vector<double> fits =
+        judge.Fit(ReadOtherwise(context.scene.model, reading.model), reading.retag);
     const double sum = std::reduce(fits.begin(), fits.end());
     if (!PictureJudge::IsClearlyBetter(as_read, fits)) verdict.is_better_as_read = false;
-    if (!PictureJudge::IsClearlyBetter(fits, as_read) || sum <= most) continue;
-    most = sum;
-    verdict.mirrored = reading;
+    if (PictureJudge::IsClearlyBetter(fits, as_read)) better.emplace_back(sum, &reading);
+  }
+  std::stable_sort(
+      better.begin(), better.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (!better.empty()) verdict.mirrored = *better[0].second;
+  if (better.size() > 1 &&
+      better[1].first > better[0].first - kClearMeanLead * static_cast<double>(as_read.size())) {
+    verdict.rival = *better[1].second;
   }
   return verdict;
 }
@@ -89,9 +100,13 @@ MirrorVerdict FindMirror(const AdviceContext& context,
 }  // namespace
 
 bool AdviseOnMirror(const AdviceContext& context, const PictureJudge& judge) {
-  std::vector<Reading> candidates;
+  std::vector<Reading> candidates = OtherTags(context);
   for (Reading& reading : OtherAxes(context)) {
     if (reading.model.linear.determinant() > 0) continue;
+    // y the other way: told of the tags and of the model together.
+    if (reading.model.linear.isApprox(Eigen::Vector3d(1, -1, 1).asDiagonal().toDenseMatrix())) {
+      continue;
+    }
     // Its fronts are in sight as it was read.
     reading.model.flips_faces = false;
     reading.remedy += context.options.flip_faces ? ", and leave out --flip-faces" : " --flip-faces";
@@ -103,10 +118,16 @@ bool AdviseOnMirror(const AdviceContext& context, const PictureJudge& judge) {
   const std::vector<double> as_read = judge.Fit(context.scene.model);
   const MirrorVerdict verdict = FindMirror(context, judge, candidates, as_read);
   if (!verdict.mirrored) return false;
+  std::string message = verdict.mirrored->message;
+  std::string remedy = verdict.mirrored->remedy;
+  if (verdict.rival) {
+    message = "either " + message + ", or " + verdict.rival->message;
+    remedy = "for the first " + remedy + "; for the second " + verdict.rival->remedy;
+  }
   context.Add(Advice::Severity::kScene,
               context.scene.model_file.string(),
-              verdict.mirrored->message + ", as the pictures' edges tell",
-              verdict.mirrored->remedy);
+              message + ", as the pictures' edges tell",
+              remedy);
   return true;
 }
 

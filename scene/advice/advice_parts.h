@@ -54,7 +54,8 @@ void AdviseOnModel(const AdviceContext& context, Misreading misreading);
 // Faces that show their backs: they run clockwise, or the model is mirrored about a line that its
 // tags suit as well, which the pictures tell if there is a judge. True if that is so.
 bool AdviseOnBacks(const AdviceContext& context, const PictureJudge* judge);
-// A model that shows its fronts and is mirrored all the same, as the pictures tell. True if so.
+// A model that shows its fronts and is mirrored all the same, or tags whose axes are others though
+// their cameras look at it, as the pictures tell. True if so.
 bool AdviseOnMirror(const AdviceContext& context, const PictureJudge& judge);
 // All heights in the tags off by the same, as the pictures tell. True if so.
 bool AdviseOnDatum(const AdviceContext& context, const PictureJudge& judge);

@@ -64,9 +64,16 @@ double FitOverAll(const AdviceContext& context, const PictureJudge& judge, const
 
 struct Choice {
   Reading best;
-  // Of another size, and as likely: neither tags nor pictures tell which.
+  // As likely, of another size or with the tags' axes in another order: neither tags nor pictures
+  // tell which.
   std::optional<Reading> rival;
+  bool is_by_pictures = false;  // others suit the tags about as well, but not the pictures
 };
+
+// How far from the look-at points the model may be met, as a share of the distance looked at. What
+// would fit by chance, since there are many sizes and heights to try, must be met well; there are
+// few orders of the axes, and some people's look-at points lie within the building.
+double MostLookatError(const Reading& reading) { return reading.retag ? 0.2 : 0.12; }
 
 // The readings that suit most tags, far more than the one that was read; the best first, none that
 // is much worse.
@@ -84,7 +91,7 @@ std::vector<std::pair<double, const Reading*>> FindSuitable(
                            suits.votes >= as_read.votes + kLead ||
                            IsMirrored(as_read, suits, reading);
     if (suits.plausible_share < FewestPlausible(photographs.size()) ||
-        suits.median_lookat_error > 0.12 || !is_better) {
+        suits.median_lookat_error > MostLookatError(reading) || !is_better) {
       continue;
     }
     suitable.emplace_back(Score(suits, reading.num_changes), &reading);
@@ -92,9 +99,10 @@ std::vector<std::pair<double, const Reading*>> FindSuitable(
   std::stable_sort(suitable.begin(), suitable.end(), [](const auto& a, const auto& b) {
     return a.first > b.first;
   });
+  // Of the few orders of the axes each is shown to the pictures.
   std::erase_if(suitable,
                 [&, limit = suitable.empty() ? 0 : suitable.front().first - kAboutAsWell](
-                    const auto& rival) { return rival.first < limit; });
+                    const auto& rival) { return rival.first < limit && !rival.second->retag; });
   return suitable;
 }
 
@@ -103,13 +111,19 @@ bool HasOtherSize(const Reading& a, const Reading& b) {
          std::abs(b.model.linear.determinant() / a.model.linear.determinant()) > 1 + 1e-6;
 }
 
+// Two that a person who looks at the pictures or measures a length can tell apart. Those that
+// differ in the model's own axes do so in which of its faces are in sight, and that tells.
+bool AreRivals(const Reading& a, const Reading& b) {
+  return HasOtherSize(a, b) || a.retag || b.retag;
+}
+
 // Where several readings suit the tags about as well, the pictures choose.
 std::optional<Choice> FindBest(const AdviceContext& context,
                                const std::vector<const Photograph*>& photographs,
                                const Suitability& as_read,
                                const std::vector<Reading>& readings,
                                const PictureJudge* judge) {
-  constexpr size_t kMostRivals = 5;
+  constexpr size_t kMostRivals = 8;
   // Of the mean fit: the edges of a wrong reading come near by chance.
   constexpr double kClearMeanLead = 0.7;
   // Of the score of a reading: half a vote and less of six is chance.
@@ -125,9 +139,12 @@ std::optional<Choice> FindBest(const AdviceContext& context,
   }
   Choice choice{*suitable[best].second, std::nullopt};
   for (size_t i = 0; i < count; ++i) {
-    if (i == best || !HasOtherSize(*suitable[i].second, choice.best) ||
-        suitable[i].first < suitable[best].first - kClearScoreLead ||
-        fits[i] < fits[best] - kClearMeanLead) {
+    if (i == best || !AreRivals(*suitable[i].second, choice.best) ||
+        suitable[i].first < suitable[best].first - kClearScoreLead) {
+      continue;
+    }
+    if (fits[i] < fits[best] - kClearMeanLead) {
+      choice.is_by_pictures = true;
       continue;
     }
     choice.rival = *suitable[i].second;
@@ -138,13 +155,21 @@ std::optional<Choice> FindBest(const AdviceContext& context,
 
 void Tell(const AdviceContext& context, const Choice& choice) {
   const Reading& best = choice.best;
-  std::string message = best.message + ": only so do the cameras look at it";
+  std::string message =
+      best.message +
+      (choice.is_by_pictures
+           ? ": so the cameras look at it, and of what they would look at, this is what the "
+             "pictures show"
+           : ": only so do the cameras look at it");
   std::string remedy = best.remedy;
   if (choice.rival) {
     message = "either " + best.message + ", or " + choice.rival->message +
               ": most cameras look at it with either";
-    remedy = "measure a length to tell which; for the first " + best.remedy + "; for the second " +
-             choice.rival->remedy;
+    remedy = (HasOtherSize(best, *choice.rival)
+                  ? "measure a length to tell which; for the first "
+                  : "on which side of the building a photograph was taken tells which; for the "
+                    "first ") +
+             best.remedy + "; for the second " + choice.rival->remedy;
   }
   context.Add(Advice::Severity::kScene, context.scene.model_file.string(), message, remedy);
 }
@@ -186,7 +211,7 @@ Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* jud
   std::vector<Reading> readings = axes;
   const std::string axes_options = AxesOptions(context.options);
   for (const Reading& reading : OtherUnits(context, axes_options)) readings.push_back(reading);
-  for (const Reading& reading : OtherTags()) readings.push_back(reading);
+  for (const Reading& reading : OtherTags(context)) readings.push_back(reading);
   for (const Reading& reading : OtherDatums(context, photographs)) readings.push_back(reading);
   for (const Reading& reading : LeftHandedAxes(context)) readings.push_back(reading);
   std::optional<Choice> choice = FindBest(context, photographs, as_read, readings, judge);

@@ -131,40 +131,52 @@ std::vector<Reading> OtherUnits(const AdviceContext& context, const std::string&
   return readings;
 }
 
+namespace {
+
+// Where the model's y as well may count the other way, which options read.
+Reading NorthInTags(const AdviceContext& context) {
+  Reading reading;
+  reading.message = "y counts north in the tags";
+  reading.remedy = "in view files y counts south: change the signs of y and j in every tag";
+  const MeshAxes axes = AxesOf(context.scene.model_file, context.options);
+  if (axes != MeshAxes::kWorld && axes != MeshAxes::kSite) return reading;
+  const bool is_world = axes == MeshAxes::kWorld;
+  reading.message += is_world ? ", or south in the model" : ", or in the model";
+  reading.remedy += std::string(", or, if it is the model whose y counts ") +
+                    (is_world ? "south, give --frame site" : "north, give --frame world") +
+                    (context.options.flip_faces ? ", and leave out --flip-faces" : " --flip-faces");
+  return reading;
+}
+
+}  // namespace
+
 // The tags' numbers, written in another order or with another sign.
-std::vector<Reading> OtherTags() {
-  struct Order {
-    const char* message;
-    const char* remedy;
-    Eigen::Vector3d (*site)(const Eigen::Vector3d&);
-  };
-  constexpr std::array<Order, 4> kOrders = {{
-      {"x and y are exchanged in the tags, or in the model",
-       "in view files x counts east and y south: exchange x with y, and i with j",
-       [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.y(), p.x(), p.z()); }},
-      {"y counts north in the tags, or south in the model",
-       "in view files y counts south: change the signs of y and j in every tag, or, if it is the "
-       "model whose y counts south, give --frame site --flip-faces",
-       [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), -p.y(), p.z()); }},
-      {"x counts north and y east in the tags, as surveyors write",
-       "in view files x counts east and y south: write y in place of x, and -x in place of y; the "
-       "same for i and j",
-       [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.y(), -p.x(), p.z()); }},
-      {"x counts west in the tags, or in the model",
-       "in view files x counts east: change the signs of x and i in every tag",
-       [](const Eigen::Vector3d& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); }},
-  }};
+std::vector<Reading> OtherTags(const AdviceContext& context) {
+  using Order = Eigen::Vector3d (*)(const Eigen::Vector3d&);
   std::vector<Reading> readings;
-  for (const Order& order : kOrders) {
-    Reading& reading = readings.emplace_back();
-    reading.retag = [site = order.site](ViewTag tag) {
-      tag.position_in_site = site(tag.position_in_site);
-      tag.lookat_in_site = site(tag.lookat_in_site);
+  const auto add = [&](Reading reading, Order in_site) {
+    reading.retag = [in_site](ViewTag tag) {
+      tag.position_in_site = in_site(tag.position_in_site);
+      tag.lookat_in_site = in_site(tag.lookat_in_site);
       return tag;
     };
-    reading.message = order.message;
-    reading.remedy = order.remedy;
-  }
+    readings.push_back(std::move(reading));
+  };
+  Reading exchanged;
+  exchanged.message = "x and y are exchanged in the tags, or in the model";
+  exchanged.remedy = "in view files x counts east and y south: exchange x with y, and i with j";
+  add(exchanged, [](const auto& p) { return Eigen::Vector3d(p.y(), p.x(), p.z()); });
+  add(NorthInTags(context), [](const auto& p) { return Eigen::Vector3d(p.x(), -p.y(), p.z()); });
+  Reading surveyed;
+  surveyed.message = "x counts north and y east in the tags, as surveyors write";
+  surveyed.remedy =
+      "in view files x counts east and y south: write y in place of x, and -x in place of y; the "
+      "same for i and j";
+  add(surveyed, [](const auto& p) { return Eigen::Vector3d(p.y(), -p.x(), p.z()); });
+  Reading west;
+  west.message = "x counts west in the tags, or in the model";
+  west.remedy = "in view files x counts east: change the signs of x and i in every tag";
+  add(west, [](const auto& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); });
   return readings;
 }
 

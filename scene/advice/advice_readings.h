@@ -32,7 +32,7 @@ std::vector<Reading> LeftHandedAxes(const AdviceContext& context);
 std::vector<Reading> OtherUnits(const AdviceContext& context, const std::string& axes_options);
 std::string AxesOptions(const ModelOptions& options);
 // The tags' numbers, written in another order or with another sign.
-std::vector<Reading> OtherTags();
+std::vector<Reading> OtherTags(const AdviceContext& context);
 // All heights off by the same: the look-at points lie all above the model, or all below it.
 std::vector<Reading> OtherDatums(const AdviceContext& context,
                                  const std::vector<const Photograph*>& photographs);

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 // Kinds of mistakes that the tags alone do not tell, or tell wrongly: the bundled hall with each.
 #include "scene/advice/advice.h"
+#include "scene/formats/image_io.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/frames.h"
 #include "tests/support/temporary_folder.h"
@@ -229,6 +230,84 @@ TEST(FindOddities, ThePicturesAreRightWhereLookAtPointsLieWithinTheBuilding) {
     Scene scene = Hall();
     scene.photographs.erase(scene.photographs.begin() + static_cast<std::ptrdiff_t>(left_out));
     EXPECT_THAT(Told(scene, true), IsEmpty()) << left_out;
+  }
+}
+
+// The orders in which people write x and y, and what is told of each.
+struct Order {
+  Moved in_site;
+  const char* told;
+};
+std::vector<Order> OtherOrders() {
+  return {{[](const auto& p) { return Eigen::Vector3d(p.x(), -p.y(), p.z()); },
+           "change the signs of y and j"},
+          {[](const auto& p) { return Eigen::Vector3d(p.y(), p.x(), p.z()); },
+           "exchange x with y, and i with j"},
+          {[](const auto& p) { return Eigen::Vector3d(-p.y(), p.x(), p.z()); },
+           "write y in place of x, and -x in place of y"},
+          {[](const auto& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); },
+           "change the signs of x and i"}};
+}
+
+void MoveAll(Scene& scene, const Moved& moved_in_site) {
+  for (Photograph& photograph : scene.photographs) {
+    photograph.tag.position_in_site = moved_in_site(photograph.tag.position_in_site);
+    photograph.tag.lookat_in_site = moved_in_site(photograph.tag.lookat_in_site);
+  }
+}
+
+TEST(FindOddities, TheOrderOfTheAxesThoughLookAtPointsLieBehindTheWalls) {
+  // By more than points are met that are on a wall.
+  Scene deep = Hall();
+  for (Photograph& photograph : deep.photographs) {
+    ViewTag& tag = photograph.tag;
+    tag.lookat_in_site += 0.16 * (tag.lookat_in_site - tag.position_in_site);
+  }
+  for (const Order& order : OtherOrders()) {
+    Scene scene = deep;
+    MoveAll(scene, order.in_site);
+    const std::vector<std::string> told = Told(scene, true);
+    ASSERT_EQ(told.size(), 1u) << order.told;
+    EXPECT_THAT(told[0], HasSubstr(order.told));
+    EXPECT_THAT(told[0], testing::Not(HasSubstr("either")));
+  }
+}
+
+TEST(FindOddities, TheOrderOfTheAxesThoughCamerasLookAtTheModelWithAnother) {
+  // About the origin, and nearly square: turned or mirrored, it is looked at all the same.
+  const Eigen::Vector3d middle = ComputeBounds(Hall().model).Center();
+  Scene centred = HallWithModel([&](const auto& p) { return Eigen::Vector3d(p - middle); });
+  MoveAll(centred, [&](const auto& p) { return Eigen::Vector3d(p - SiteFromWorld(middle)); });
+  for (const Order& order : OtherOrders()) {
+    Scene scene = centred;
+    MoveAll(scene, order.in_site);
+    const std::vector<std::string> told = Told(scene, true);
+    ASSERT_EQ(told.size(), 1u) << order.told;
+    EXPECT_THAT(told[0], HasSubstr(order.told));
+  }
+}
+
+TEST(FindOddities, TwoOrdersOfTheAxesThatSuitTheTagsAlikeAreBothNamed) {
+  // A square house with its corner in the origin, and y counted north: turned about, x and y
+  // look at it as well.
+  TemporaryFolder folder;
+  folder.Write("model.osu",
+               "8 5\n0 -10 0\n10 -10 0\n10 0 0\n0 0 0\n0 -10 6\n10 -10 6\n10 0 6\n0 0 6\n"
+               "4 2 1 5 6\n4 4 3 7 8\n4 3 2 6 7\n4 1 4 8 5\n4 8 7 6 5\n");
+  const std::vector<std::string> tags = {"x 4 y -20 z 2 i 5 j 0 k 3",
+                                         "x 30 y 5 z 2 i 10 j 6 k 3",
+                                         "x 5 y 28 z 2 i 4 j 10 k 3",
+                                         "x -22 y 4 z 2 i 0 j 5 k 3"};
+  for (size_t i = 0; i < tags.size(); ++i) {
+    const std::string name = "s" + std::to_string(i);
+    folder.Write("views/" + name + ".view", tags[i] + " a 1.5 v 50\n");
+    WriteSrgb8(folder.path() / "images" / (name + ".jpg"), Image8(30, 20, 3, 128));
+  }
+  for (const bool with_pictures : {false, true}) {  // which show nothing here
+    EXPECT_THAT(Told(ReadScene(folder.path()), with_pictures),
+                testing::Contains(AllOf(HasSubstr("either "),
+                                        HasSubstr("change the signs of y and j"),
+                                        HasSubstr("write y in place of x, and -x in place of y"))));
   }
 }
 
