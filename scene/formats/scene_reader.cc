@@ -315,6 +315,23 @@ void SceneReader::DecodeAll() {
 }
 
 std::vector<std::string> SceneReader::SetUnreadableApart() {
+  DecodeUntagged();
+}
+
+// Whoever is to write a tag for a picture should know first that it cannot be used.
+void SceneReader::DecodeUntagged() {
+  const std::vector<fs::path>& images = result_.scene.untagged_images;
+  std::vector<std::string> faults(images.size());
+  tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
+    try {
+      ReadSrgb8(images[i]);
+    } catch (const Error& error) {
+      faults[i] = error.what();
+    }
+  });
+  for (size_t i = 0; i < images.size(); ++i) {
+    if (!faults[i].empty()) FaultOf(images[i].string(), faults[i]);
+  }
   Scene& scene = result_.scene;
   std::erase_if(scene.photographs, [&](Photograph& photograph) {
     const auto faults = faults_of_.find(photograph.name);

@@ -105,6 +105,7 @@ class SceneReader {
   std::vector<std::string> scene_faults_;
   std::map<std::string, std::vector<std::string>, NaturalOrder> faults_of_;  // by photograph
   std::set<std::filesystem::path> not_images_;  // whose header cannot be read
+  void DecodeUntagged();
   std::map<std::string, FoundTag, NaturalOrder> tags_;
   FilesByStem calibration_;   // its view files, by photograph
   std::vector<Lens> lenses_;  // of calibration/

@@ -66,6 +66,18 @@ TEST(ReadScene, ThrowsTheFirstFaultOfTheWhole) {
   EXPECT_THAT(ThrownMessage([&] { ReadScene(folder.path()); }), HasSubstr("no model; expected"));
 }
 
+TEST(ReadScene, ADamagedPictureIsToldThoughItHasNoTag) {
+  const SceneFolder folder;
+  const std::string whole = ReadTextFile(folder / "images/s2.jpg");
+  folder.Write("images/s3.jpg", whole.substr(0, whole.size() / 2));
+  EXPECT_THAT(CheckScene(folder.path()).faults,
+              testing::ElementsAre(HasSubstr("images/s3.jpg: cannot read this as an image")));
+  // It spoils nothing.
+  const Scene scene = ReadScene(folder.path());
+  EXPECT_EQ(scene.photographs.size(), 2u);
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("images/s3.jpg: cannot read this as an image")));
+}
+
 TEST(ReadScene, OnePhotographThatCannotBeReadIsSetApart) {
   const std::string damaged = [] {
     const SceneFolder folder;
