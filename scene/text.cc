@@ -118,36 +118,75 @@ bool IsUnitSign(std::string_view word) {
 
 }  // namespace
 
-std::string WhyNoNumber(std::string_view word) {
+namespace {
+
+std::string_view WithoutBlanks(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+// A number with what people write before or after it: "ca. 3.2", "9.7 m".
+struct NumberAmongWords {
+  std::string_view number;
+  std::string_view other;  // empty: there is nothing but the number, or no number
+};
+
+NumberAmongWords FindNumber(std::string_view text) {
+  const size_t end = text.find_first_not_of("+-.0123456789");
+  if (end != std::string_view::npos && end > 0 && ParseNumber(text.substr(0, end))) {
+    const std::string_view unit = WithoutBlanks(text.substr(end));
+    return !unit.empty() && IsUnitSign(unit) ? NumberAmongWords{text.substr(0, end), unit}
+                                             : NumberAmongWords{};
+  }
+  // The full stop of "ca." begins no number.
+  const size_t begin = text.find_first_of("+-0123456789");
+  if (begin == std::string_view::npos || begin == 0) return {};
+  const std::string_view number = text.substr(begin);
+  const std::string_view before = WithoutBlanks(text.substr(0, begin));
+  return ParseNumber(number) && !before.empty() ? NumberAmongWords{number, before}
+                                                : NumberAmongWords{};
+}
+
+}  // namespace
+
+std::string WhyNoNumber(std::string_view word) { return WhyNoNumber(word, '.'); }
+
+std::string WhyNoNumber(std::string_view word, char decimal_mark) {
   if (ParseNumber(word)) return Quote(word) + " is not a finite number";
   const std::string fault = Quote(word) + " is not a number";
+  const auto written = [&](std::string_view number) {
+    std::string text(number);
+    std::replace(text.begin(), text.end(), '.', decimal_mark);
+    return text;
+  };
   std::string with_points(word);
   std::replace(with_points.begin(), with_points.end(), ',', '.');
-  if (with_points != word && ParseNumber(with_points)) {
+  if (with_points != word && ParseNumber(with_points) && decimal_mark == '.') {
     return fault + "; write " + with_points + ", with a point";
   }
+  const std::string_view plain = with_points;
   // The minus sign, the hyphen and the dashes that word processors put in place of `-`.
   for (const std::string_view dash : {"\u2212", "\u2010", "\u2011", "\u2012", "\u2013", "\u2014"}) {
-    if (!word.starts_with(dash)) continue;
-    const std::string with_minus = "-" + std::string(word.substr(dash.size()));
-    if (ParseNumber(with_minus)) return fault + ", for its minus is a dash; write " + with_minus;
-  }
-  if (const std::string digits = WithDigitsForLetters(word); ParseNumber(digits)) {
-    return fault + "; is it " + digits + ", with a letter in place of a digit?";
-  }
-  const size_t middle = word.find_first_of(":/");
-  if (middle != std::string_view::npos) {
-    const std::optional<double> above = ParseNumber(word.substr(0, middle));
-    const std::optional<double> below = ParseNumber(word.substr(middle + 1));
-    if (above && below && *below != 0 && std::isfinite(*above / *below)) {
-      return fault + "; write " + FormatNumber(std::round(1e4 * *above / *below) / 1e4);
+    if (!plain.starts_with(dash)) continue;
+    const std::string with_minus = "-" + std::string(plain.substr(dash.size()));
+    if (ParseNumber(with_minus)) {
+      return fault + ", for its minus is a dash; write " + written(with_minus);
     }
   }
-  const size_t end = word.find_first_not_of("+-.0123456789");
-  if (end != std::string_view::npos && end > 0 && ParseNumber(word.substr(0, end)) &&
-      IsUnitSign(word.substr(end))) {
-    return fault + "; write " + std::string(word.substr(0, end)) + " alone, without " +
-           Quote(word.substr(end));
+  if (const std::string digits = WithDigitsForLetters(plain); ParseNumber(digits)) {
+    return fault + "; is it " + written(digits) + ", with a letter in place of a digit?";
+  }
+  const size_t middle = plain.find_first_of(":/");
+  if (middle != std::string_view::npos) {
+    const std::optional<double> above = ParseNumber(WithoutBlanks(plain.substr(0, middle)));
+    const std::optional<double> below = ParseNumber(WithoutBlanks(plain.substr(middle + 1)));
+    if (above && below && *below != 0 && std::isfinite(*above / *below)) {
+      return fault + "; write " + written(FormatNumber(std::round(1e4 * *above / *below) / 1e4));
+    }
+  }
+  if (const NumberAmongWords found = FindNumber(plain); !found.other.empty()) {
+    return fault + "; write " + written(found.number) + " alone, without " + Quote(found.other);
   }
   return fault;
 }

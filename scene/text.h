@@ -36,8 +36,10 @@ std::optional<double> ParseNumber(std::string_view word);
 std::optional<long long> ParseInteger(std::string_view word);
 
 // What is wrong with a word that should be a finite number, in words that follow `Subject: `; for
-// words for which ParseNumber gives nothing, or nothing finite.
+// words for which ParseNumber gives nothing, or nothing finite. What it says to write has the
+// decimal mark that is usual there: '.' or ','.
 std::string WhyNoNumber(std::string_view word);
+std::string WhyNoNumber(std::string_view word, char decimal_mark);
 
 // The shortest digits that read back as exactly this number, whatever the machine's locale.
 std::string FormatNumber(double value);

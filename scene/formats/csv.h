@@ -39,6 +39,7 @@ class CsvTable {
   // A field's number, with a decimal point or comma, thousands parted or not; infinite if it is
   // too large. Nothing if it is no number, or if nobody can tell which one (why_not says so).
   std::optional<double> Number(std::string_view field, std::string* why_not = nullptr) const;
+  char decimal_mark() const { return decimal_mark_; }  // '?' if what the table holds does not tell
 
  private:
   struct Record;

@@ -119,13 +119,12 @@ void SceneReader::CompleteTag(const FoundTag& found, Photograph& photograph) {
   text = WithKeys(text, taken);
   std::string why_not;
   text = WithMetadata(text, photograph, why_not);
-  const fs::path place = found.view_file.empty() ? folder_ / "tags.csv" : found.view_file;
-  const std::vector<std::string> faults = FindViewFaults(text, place);
+  const std::vector<std::string> faults = FaultsOfText(photograph.name, found, text);
   for (const std::string& fault : faults) {
     const bool is_view_angle = fault.ends_with("key 'v' is missing") && !why_not.empty();
     FaultOf(photograph.name, is_view_angle ? fault + ", and " + why_not : fault);
   }
-  if (faults.empty()) photograph.tag = ParseView(text, place);
+  if (faults.empty()) photograph.tag = ParseView(text, found.view_file);
 }
 
 void SceneReader::TellWhatWasTaken() {

@@ -65,6 +65,7 @@ SceneReading SceneReader::Read(bool decode_pictures) {
   ReadTags(images);
   ReadCalibration();
   Match(images);
+  SortTableFaults();
   TellWhatWasTaken();
   AddMasks("masks", &Photograph::mask_file);
   AddMasks("faces", &Photograph::faces_file);
@@ -193,7 +194,9 @@ void SceneReader::Match(const FilesByStem& images) {
   for (const auto& [name, file] : known_names_) {
     if (image_of_tag.count(name) > 0) continue;
     if (const auto tag = tags_.find(name); tag != tags_.end() && tag->second.text) {
-      for (const std::string& fault : FindViewFaults(*tag->second.text, file)) FaultOf(name, fault);
+      for (const std::string& fault : FaultsOfText(name, tag->second, *tag->second.text)) {
+        FaultOf(name, fault);
+      }
     }
     Warn(file,
          "tag of " + name + " without a photograph; expected images/" + name + " with " +
@@ -312,9 +315,6 @@ void SceneReader::DecodeAll() {
   for (size_t i = 0; i < photographs.size(); ++i) {
     for (const std::string& line : faults[i]) FaultOf(photographs[i].name, line);
   }
-}
-
-std::vector<std::string> SceneReader::SetUnreadableApart() {
   DecodeUntagged();
 }
 
@@ -332,6 +332,9 @@ void SceneReader::DecodeUntagged() {
   for (size_t i = 0; i < images.size(); ++i) {
     if (!faults[i].empty()) FaultOf(images[i].string(), faults[i]);
   }
+}
+
+std::vector<std::string> SceneReader::SetUnreadableApart() {
   Scene& scene = result_.scene;
   std::erase_if(scene.photographs, [&](Photograph& photograph) {
     const auto faults = faults_of_.find(photograph.name);

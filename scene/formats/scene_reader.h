@@ -35,6 +35,7 @@ struct FoundTag {
   ViewTag tag;  // of cameras that are given whole; else `text` says it
   std::filesystem::path view_file;
   std::optional<std::string> text;
+  int line = 0;  // of the table; 0: it is not from one
 };
 
 // What is taken over from elsewhere, by what is said of it: "v from ..." and the photographs'
@@ -83,6 +84,14 @@ class SceneReader {
   // The tags of a COLMAP model's cameras.
   void ReadGivenCameras(const ColmapFiles& files, const FilesByStem& images);
   void Match(const FilesByStem& images);
+  // What a view file's text lacks, with the tag's place: the view file, or the table's line.
+  std::vector<std::string> FaultsOfText(const std::string& name,
+                                        const FoundTag& found,
+                                        const std::string& text) const;
+  // A line of the table that is of no photograph and gives no place: "Summe;3;;".
+  bool IsNoTag(const std::string& name, const FilesByStem& images, const FoundTag& found) const;
+  // The faults of a table in the order of its lines, whoever has found them.
+  void SortTableFaults();
   // calibration/: what is known of photographs and lenses besides the tags.
   void ReadCalibration();
   // The tag of a photograph from its view file's text, and what that lacks from calibration/ and
@@ -96,6 +105,7 @@ class SceneReader {
   std::optional<size_t> FindByPlace(const std::filesystem::path& mask) const;
   // Reads every pixel, since a damaged file may have a sound header.
   void DecodeAll();
+  void DecodeUntagged();
   // Moves photographs with faults out of the others' way. Returns the faults that are left.
   std::vector<std::string> SetUnreadableApart();
 
@@ -105,7 +115,6 @@ class SceneReader {
   std::vector<std::string> scene_faults_;
   std::map<std::string, std::vector<std::string>, NaturalOrder> faults_of_;  // by photograph
   std::set<std::filesystem::path> not_images_;  // whose header cannot be read
-  void DecodeUntagged();
   std::map<std::string, FoundTag, NaturalOrder> tags_;
   FilesByStem calibration_;   // its view files, by photograph
   std::vector<Lens> lenses_;  // of calibration/

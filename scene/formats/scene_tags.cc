@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "scene/formats/given_cameras.h"
+#include "scene/formats/photograph_name.h"
 #include "scene/formats/scene_reader.h"
 #include "scene/formats/tags_csv.h"
 #include "scene/formats/view_io.h"
 #include "scene/formats/view_pairs.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -74,7 +77,7 @@ void SceneReader::ReadViewFiles(const fs::path& views) {
       known_names_[name] = file;
       const std::vector<std::string> faults = ReadSomePairs(text, file).faults;
       for (const std::string& fault : faults) FaultOf(name, fault);
-      if (faults.empty()) tags_[name] = {{}, file, text};
+      if (faults.empty()) tags_[name] = {{}, file, text, 0};
     } catch (const Error& read_error) {
       known_names_[name] = file;
       FaultOf(name, read_error.what());
@@ -90,13 +93,22 @@ void SceneReader::ReadTable(const fs::path& table, const FilesByStem& images) {
     std::vector<std::string>& warnings = result_.scene.warnings;
     warnings.insert(warnings.end(), rows.warnings.begin(), rows.warnings.end());
     for (const TagRow& row : rows.rows) {
-      tags_[row.name] = {row.tag, {}, {}};
-      if (!row.text.empty()) tags_[row.name].text = row.text;
+      FoundTag found{row.tag, {}, {}, row.line};
+      if (!row.text.empty()) found.text = row.text;
+      if (IsNoTag(row.name, images, found)) {
+        warnings.push_back(Error(table,
+                                 row.line,
+                                 "left out: there is no photograph " + Quote(row.name) +
+                                     ", and the line gives no place of a camera")
+                               .what());
+        continue;
+      }
+      tags_[row.name] = std::move(found);
       known_names_[row.name] = table;
     }
-    for (const auto& [name, faults] : rows.row_faults) {
-      for (const std::string& fault : faults) FaultOf(name, fault);
-      known_names_[name] = table;
+    for (const TagTable::RowFault& fault : rows.row_faults) {
+      FaultOf(fault.name, fault.text);
+      known_names_[fault.name] = table;
     }
     if (!rows.faults.empty()) {
       // A table that cannot be read may have any photograph: do not call them untagged.
@@ -105,6 +117,49 @@ void SceneReader::ReadTable(const fs::path& table, const FilesByStem& images) {
   } catch (const Error& read_error) {
     Fault(read_error.what());
   }
+}
+
+bool SceneReader::IsNoTag(const std::string& name,
+                          const FilesByStem& images,
+                          const FoundTag& found) const {
+  if (!found.text) return false;
+  const ViewReading reading = ReadSomePairs(*found.text, "");
+  const bool has_place = FindPair(reading.pairs, "x") != nullptr &&
+                         FindPair(reading.pairs, "y") != nullptr &&
+                         FindPair(reading.pairs, "z") != nullptr;
+  if (has_place) return false;
+  std::vector<PhotographName> image_names;
+  for (const auto& [image, file] : images) image_names.push_back({image, file.filename().string()});
+  return !MatchPhotographs(std::vector<std::string>{name}, image_names)[0];
+}
+
+std::vector<std::string> SceneReader::FaultsOfText(const std::string& name,
+                                                   const FoundTag& found,
+                                                   const std::string& text) const {
+  if (found.line == 0) return FindViewFaults(text, found.view_file);
+  std::vector<std::string> faults;
+  for (const std::string& fault : FindViewFaults(text, "")) {
+    const std::string message = fault.substr(fault.find(": ") + 2);
+    faults.push_back(Error(folder_ / "tags.csv", found.line, name + ": " + message).what());
+  }
+  return faults;
+}
+
+void SceneReader::SortTableFaults() {
+  const std::string place = (folder_ / "tags.csv").string() + ":";
+  std::vector<std::string*> slots;
+  std::vector<std::pair<long long, std::string>> sorted;
+  for (std::string& fault : result_.faults) {
+    if (!fault.starts_with(place)) continue;
+    const std::string_view rest = std::string_view(fault).substr(place.size());
+    const std::optional<long long> line = ParseInteger(rest.substr(0, rest.find(':')));
+    if (!line) continue;
+    slots.push_back(&fault);
+    sorted.emplace_back(*line, fault);
+  }
+  std::stable_sort(
+      sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (size_t i = 0; i < slots.size(); ++i) *slots[i] = sorted[i].second;
 }
 
 void SceneReader::ReadGivenCameras(const ColmapFiles& files, const FilesByStem& images) {
@@ -129,7 +184,7 @@ void SceneReader::ReadGivenCameras(const ColmapFiles& files, const FilesByStem& 
     const fs::path& image_file = images.at(names[index]);
     try {
       const FittedCamera fitted = FitCamera(camera.camera, ReadImageSize(image_file), image_file);
-      tags_[names[index]] = {TagForModel(fitted.camera, result_.scene.model), {}, {}};
+      tags_[names[index]] = {TagForModel(fitted.camera, result_.scene.model), {}, {}, 0};
       if (!fitted.change.empty()) names_of_change[fitted.change].push_back(names[index]);
     } catch (const Error& error) {
       FaultOf(names[index], error.what());

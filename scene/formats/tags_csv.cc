@@ -8,25 +8,34 @@
 #include "scene/formats/view_io.h"
 #include "scene/formats/view_pairs.h"
 #include "scene/frames.h"
+#include "scene/nearest_word.h"
 #include "scene/text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <map>
-#include <set>
+#include <optional>
+#include <utility>
 
 namespace groundglass {
 namespace {
 
-// A column of a table that is none of a tag's keys.
-bool IsOtherColumn(std::string_view name) {
-  constexpr std::array<std::string_view, 7> kOthers = {
-      "image", "yaw", "pitch", "lat", "lon", "height", "camera"};
-  return std::find(kOthers.begin(), kOthers.end(), name) != kOthers.end() ||
-         std::any_of(kSigmaKeys.begin(), kSigmaKeys.end(), [&](const SigmaKey& key) {
-           return key.name == name;
-         });
+// All columns that are read.
+std::vector<std::string> KnownColumns() {
+  std::vector<std::string> columns = {"image"};
+  columns.insert(columns.end(), kTagKeyNames.begin(), kTagKeyNames.end());
+  for (const char* other : {"yaw", "pitch", "lat", "lon", "height", "camera"}) {
+    columns.push_back(other);
+  }
+  for (const SigmaKey& key : kSigmaKeys) columns.emplace_back(key.name);
+  return columns;
+}
+
+std::string Joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
 }
 
 // Earth-centred coordinates in metres (WGS 84). Ours, since these six lines are exact, and all that
@@ -74,15 +83,38 @@ class TableReader {
     return Has(column) && !fields[columns_.at(column)].empty();
   }
 
+  // A remark of a spreadsheet's own spoils nothing; a known column that is mistyped would be
+  // missed.
+  void TellUnknownColumn(int line,
+                         size_t column,
+                         const std::vector<std::string>& names,
+                         const std::vector<std::string>& known) {
+    const std::string& name = names[column];
+    std::vector<std::string> absent = known;
+    std::erase_if(absent, [&](const std::string& one) {
+      return std::find(names.begin(), names.end(), one) != names.end();
+    });
+    if (const auto meant = name.empty() ? std::nullopt : FindNearest(name, absent)) {
+      Fail(line, "unknown column " + Quote(name) + "; did you mean " + Quote(*meant) + "?");
+      return;
+    }
+    const std::string what = name.empty()
+                                 ? "column " + std::to_string(column + 1) + " has no name and"
+                                 : "unknown column " + Quote(name);
+    table_.warnings.push_back(
+        Error(file_, line, what + " is not read; the columns are " + Joined(known)).what());
+  }
+
   bool ReadHeader(int line, const std::vector<std::string>& names) {
     const size_t faults_before = table_.faults.size();
+    const std::vector<std::string> known = KnownColumns();
     for (size_t i = 0; i < names.size(); ++i) {
       const std::string& name = names[i];
-      const bool is_known =
-          std::find(kTagKeyNames.begin(), kTagKeyNames.end(), name) != kTagKeyNames.end() ||
-          IsOtherColumn(name);
-      if (!is_known) Fail(line, "unknown column " + Quote(names[i]));
-      if (!columns_.emplace(name, i).second) Fail(line, "column " + Quote(name) + " is repeated");
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        TellUnknownColumn(line, i, names, known);
+      } else if (!columns_.emplace(name, i).second) {
+        Fail(line, "column " + Quote(name) + " is repeated");
+      }
     }
     has_angles_ = Has("yaw") || Has("pitch");
     is_geodetic_ = Has("lat") || Has("lon") || Has("height");
@@ -121,12 +153,13 @@ class TableReader {
     const std::vector<std::string>& fields = csv_row.fields;
     const size_t image_column = columns_.at("image");
     const std::string image = image_column < fields.size() ? fields[image_column] : "";
-    std::vector<std::string> faults;
-    const auto fail = [&](const std::string& message) {
-      faults.push_back(Error(file_, csv_row.line, message).what());
-    };
     TagRow row;
     row.line = csv_row.line;
+    std::vector<std::string> faults;
+    const auto fail = [&](const std::string& message) {
+      faults.push_back(
+          Error(file_, csv_row.line, (image.empty() ? "" : row.name + ": ") + message).what());
+    };
     if (image.empty()) {
       row.name = file_.filename().string() + ":" + std::to_string(csv_row.line);
       fail("column 'image' is empty");
@@ -135,8 +168,9 @@ class TableReader {
       row.name = ImageStem(image);
       if (!csv_row.fault.empty()) {
         fail(csv_row.fault);
-      } else if (!names_.insert(row.name).second) {
-        fail("photograph " + Quote(row.name) + " has a row already");
+      } else if (const auto [first, is_new] = line_of_.emplace(row.name, row.line); !is_new) {
+        fail("has a row already, on line " + std::to_string(first->second) +
+             "; keep one of the two");
       } else {
         ReadTag(csv, fields, row, fail);
       }
@@ -145,8 +179,9 @@ class TableReader {
       table_.rows.push_back(std::move(row));
       return;
     }
-    std::vector<std::string>& all = table_.row_faults[row.name];
-    all.insert(all.end(), faults.begin(), faults.end());
+    for (const std::string& fault : faults) {
+      table_.row_faults.push_back({row.name, row.line, fault});
+    }
   }
 
   // The tag that a row's fields give, or what is wrong with it.
@@ -161,8 +196,9 @@ class TableReader {
       std::string why_not;
       const std::optional<double> value = csv.Number(field, &why_not);
       if (value && std::isfinite(*value)) return *value;
-      if (why_not.empty()) why_not = value ? "is not a finite number" : "is not a number";
-      fail("key " + Quote(column) + ": " + Quote(field) + " " + why_not);
+      fail("key " + Quote(column) + ": " +
+           (why_not.empty() ? WhyNoNumber(field, csv.decimal_mark() == ',' ? ',' : '.')
+                            : Quote(field) + " " + why_not));
       is_sound = false;
       return 0.0;
     };
@@ -221,7 +257,7 @@ class TableReader {
   const PolygonModel& model_;
   Eigen::Vector3d center_in_site_;
   std::map<std::string, size_t> columns_;
-  std::set<std::string> names_;
+  std::map<std::string, int> line_of_;  // the rows' names
   bool has_angles_ = false;
   bool is_geodetic_ = false;
   TagTable table_;

@@ -6,7 +6,6 @@
 #include "scene/view_tag.h"
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -26,8 +25,14 @@ struct TagRow {
 struct TagTable {
   std::vector<TagRow> rows;
   std::vector<std::string> faults;  // of the table as a whole
-  // Of single rows, by photograph; by "tags.csv:7" where the row does not say which one.
-  std::map<std::string, std::vector<std::string>> row_faults;
+  // Of single rows, in their order, by photograph; by "tags.csv:7" where the row does not say which
+  // one.
+  struct RowFault {
+    std::string name;
+    int line = 0;
+    std::string text;
+  };
+  std::vector<RowFault> row_faults;
   std::vector<std::string> warnings;
 };
 

@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace groundglass {
 namespace {
 
@@ -60,9 +62,10 @@ TEST(TagTable, ReadsASpreadsheetOfTheContinent) {
 TEST(TagTable, UnclearNumbersNameLineAndColumn) {
   const TableFolder folder(
       "image,x,y,z,i,j,k,a,v\ns2,\"1,234\",2.5,3,4,5,6,1.5,40\ns10,1,2,3,4,5,6,1.5,40\n");
-  EXPECT_THAT(CheckScene(folder.path()).faults,
-              Contains(HasSubstr("tags.csv:2: key 'x': '1,234' may be 1.234 or 1234; write it with "
-                                 "a decimal point")));
+  EXPECT_THAT(
+      CheckScene(folder.path()).faults,
+      Contains(HasSubstr("tags.csv:2: s2: key 'x': '1,234' may be 1.234 or 1234; write it with "
+                         "a decimal point")));
 }
 
 TEST(TagTable, YawAndPitchAreTheThesisAngles) {
@@ -109,8 +112,6 @@ TEST(TagTable, FaultsNameLineAndColumn) {
   };
   EXPECT_THAT(faults("image,x,y,z,i,j,k,a\n"),
               Contains(HasSubstr("tags.csv:1: column 'v' is missing")));
-  EXPECT_THAT(faults("image,x,y,z,i,j,k,a,v,pan\n"),
-              Contains(HasSubstr("tags.csv:1: unknown column 'pan'")));
   EXPECT_THAT(faults("image,x,y,z,i,j,k,a,v,v\n"),
               Contains(HasSubstr("tags.csv:1: column 'v' is repeated")));
   EXPECT_THAT(faults("image,x,y,z,i,j,k,yaw,pitch,a,v\n"),
@@ -119,16 +120,65 @@ TEST(TagTable, FaultsNameLineAndColumn) {
               Contains(HasSubstr("lat,lon,height need a model that says where it stands")));
   const std::string header = "image,x,y,z,i,j,k,a,v\n";
   EXPECT_THAT(faults(header + "s2,1,2,3\n"),
-              Contains(HasSubstr("tags.csv:2: has 4 fields; the header has 9")));
+              Contains(HasSubstr("tags.csv:2: s2: has 4 fields; the header has 9")));
   EXPECT_THAT(faults(header + "s2,1,two,3,4,5,6,1.5,40\n"),
-              Contains(HasSubstr("tags.csv:2: key 'y': 'two' is not a number")));
+              Contains(HasSubstr("tags.csv:2: s2: key 'y': 'two' is not a number")));
   EXPECT_THAT(faults(header + "s2,1,2,3,4,5,6,1.5,240\n"),
-              Contains(HasSubstr("tags.csv:2: key 'v': view angle must lie between")));
+              Contains(HasSubstr("tags.csv:2: s2: key 'v': view angle must lie between")));
   EXPECT_THAT(faults(header + "s2,1,2,3,4,5,6,1.5,40\ns2.jpg,1,2,3,4,5,6,1.5,40\n"),
-              Contains(HasSubstr("tags.csv:3: photograph 's2' has a row already")));
+              Contains(HasSubstr("tags.csv:3: s2: has a row already, on line 2")));
   EXPECT_THAT(faults(header + "s2,1,,3,4,5,6,1.5,40\n"),
-              Contains(HasSubstr("tags.csv:2: key 'y' is missing")));
+              Contains(HasSubstr("tags.csv:2: s2: key 'y' is missing")));
   EXPECT_THAT(faults(""), Contains(HasSubstr("tags.csv: no header")));
+}
+
+TEST(TagTable, AColumnThatNobodyKnowsStopsNothing) {
+  const TableFolder folder(
+      "image,x,y,z,i,j,k,a,v,Remarks\n"
+      "s2,5,20,2,5,0,2,1.5,40,from the kerb\ns10,5,20,2,5,0,2,1.5,40,3\n");
+  const SceneCheck check = CheckScene(folder.path());
+  EXPECT_THAT(check.faults, IsEmpty());
+  EXPECT_EQ(check.scene.photographs.size(), 2u);
+  EXPECT_THAT(check.scene.warnings,
+              testing::ElementsAre(
+                  testing::AllOf(HasSubstr("tags.csv:1: unknown column 'remarks' is not read"),
+                                 HasSubstr("the columns are image x y z i j k a v roll"))));
+  // One that was meant to be read.
+  const TableFolder mistyped("image,x,y,z,i,j,k,a,v,sigma_postion\ns2,5,20,2,5,0,2,1.5,40,1\n");
+  EXPECT_THAT(CheckScene(mistyped.path()).faults,
+              Contains(HasSubstr("tags.csv:1: unknown column 'sigma_postion'; did you mean "
+                                 "'sigma_position'?")));
+}
+
+TEST(TagTable, FaultsComeInTheOrderOfLinesWithTheirPhotographs) {
+  const TableFolder folder(
+      "image;x;y;z;i;j;k;a;v\n"
+      "s2;ca. 3,2;20,5;2,5;5;0;2;2/3;40\n"
+      "s10;5,5;9,7 m;2,5;5;0;;;40\n"
+      "a1;5,5;20;2,5;5;zwei;2;1,5;40\n"
+      "Sum;3;;;;;;;\n");
+  const SceneCheck check = CheckScene(folder.path());
+  ASSERT_EQ(check.faults.size(), 4u);
+  EXPECT_THAT(check.faults[0],
+              HasSubstr("tags.csv:2: s2: key 'a': '2/3' is not a number; write 0,6667"));
+  EXPECT_THAT(check.faults[1],
+              HasSubstr("tags.csv:2: s2: key 'x': 'ca. 3,2' is not a number; write 3,2 alone, "
+                        "without 'ca.'"));
+  EXPECT_THAT(check.faults[2],
+              HasSubstr("tags.csv:3: s10: key 'y': '9,7 m' is not a number; write 9,7 alone, "
+                        "without 'm'"));
+  EXPECT_THAT(check.faults[3], HasSubstr("tags.csv:4: a1: key 'j': 'zwei' is not a number"));
+  const auto of_the_sum = std::count_if(
+      check.scene.warnings.begin(), check.scene.warnings.end(), [](const std::string& line) {
+        return line.find("'Sum'") != std::string::npos;
+      });
+  EXPECT_EQ(of_the_sum, 1);
+}
+
+TEST(TagTable, WhatALineLacksIsToldWithItsNumber) {
+  const TableFolder folder("image,x,y,z,i,j,k,a,v\ns10,5,20,2,5,0,2,1.5,40\ns2,5,20,2,5,,2,1.5,\n");
+  EXPECT_THAT(CheckScene(folder.path()).faults,
+              Contains(HasSubstr("tags.csv:3: s2: key 'j' is missing")));
 }
 
 TEST(TagTable, ARowThatCannotBeReadCostsItsOwnPhotographOnly) {
