@@ -3,10 +3,15 @@
 // Pictures' sides against the frames that their tags speak of.
 #include "scene/advice/advice_parts.h"
 #include "scene/frames.h"
+#include "scene/quantile.h"
 #include "scene/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -31,6 +36,134 @@ bool SuitsPicture(const Photograph& photograph) {
 
 namespace {
 
+double PictureAspect(const Photograph& photograph) {
+  return static_cast<double>(photograph.size.width) / photograph.size.height;
+}
+
+// How much wider than high each pixel would be.
+double PixelShape(const Photograph& photograph) {
+  return photograph.tag.aspect / PictureAspect(photograph);
+}
+
+// Frames whose pixels are oblong by design: digital video of NTSC and PAL, tapes of wide pictures.
+bool IsVideoFrame(const ImageSize& size) {
+  constexpr std::array<std::array<int, 2>, 18> kFrames = {{{720, 480},
+                                                           {720, 486},
+                                                           {720, 576},
+                                                           {704, 480},
+                                                           {704, 576},
+                                                           {702, 576},
+                                                           {640, 480},
+                                                           {768, 576},
+                                                           {544, 480},
+                                                           {544, 576},
+                                                           {480, 480},
+                                                           {480, 576},
+                                                           {352, 480},
+                                                           {352, 576},
+                                                           {352, 240},
+                                                           {352, 288},
+                                                           {1440, 1080},
+                                                           {960, 720}}};
+  return std::any_of(kFrames.begin(), kFrames.end(), [&](const auto& frame) {
+    return size.width == frame[0] && size.height == frame[1];
+  });
+}
+
+bool HasSameSize(const ImageSize& a, const ImageSize& b) {
+  return (a.width == b.width && a.height == b.height) ||
+         (a.width == b.height && a.height == b.width);
+}
+
+// The shape of nearly all other photographs' pixels; nothing where they do not agree.
+std::optional<double> CommonPixelShape(const Scene& scene, const Photograph& photograph) {
+  constexpr size_t kFewestOthers = 2;
+  constexpr double kMost = 0.6;
+  constexpr double kAlike = 0.02;
+  std::vector<double> others;
+  for (const Photograph& other : scene.photographs) {
+    if (&other != &photograph) others.push_back(PixelShape(other));
+  }
+  if (others.size() < kFewestOthers) return std::nullopt;
+  const double middle = UpperMedian(others);
+  const auto num_alike = std::count_if(others.begin(), others.end(), [&](double other) {
+    return std::abs(other / middle - 1) < kAlike;
+  });
+  if (static_cast<double>(num_alike) < kMost * static_cast<double>(others.size())) {
+    return std::nullopt;
+  }
+  return middle;
+}
+
+}  // namespace
+
+bool SeemsCropped(const Scene& scene, const Photograph& photograph) {
+  // Scans of mounted slides are trimmed by a few hundredths.
+  constexpr double kTrimmed = 1.06;
+  // So many of one size are what a scanner or a camera makes.
+  constexpr int kFewestOfAFormat = 3;
+  const std::optional<double> common = CommonPixelShape(scene, photograph);
+  if (!common || IsVideoFrame(photograph.size)) return false;
+  const double ratio = PixelShape(photograph) / *common;
+  if (ratio < kTrimmed && ratio > 1 / kTrimmed) return false;
+  // Turned by 90 degrees: told as that.
+  const double turned =
+      PixelShape(photograph) * PictureAspect(photograph) * PictureAspect(photograph) / *common;
+  if (turned < kTrimmed && turned > 1 / kTrimmed) return false;
+  const auto num_of_its_size = std::count_if(
+      scene.photographs.begin(), scene.photographs.end(), [&](const Photograph& other) {
+        return HasSameSize(other.size, photograph.size) &&
+               std::abs(PixelShape(other) / PixelShape(photograph) - 1) < 0.02;
+      });
+  return num_of_its_size < kFewestOfAFormat;
+}
+
+namespace {
+
+// The frame that it may have been cut from: of a photograph with the same `a` and `v` whose `a`
+// suits it, larger than this one. Nothing where these have several sizes.
+const Photograph* FindWholeFrame(const Scene& scene, const Photograph& cropped) {
+  const Photograph* found = nullptr;
+  for (const Photograph& whole : scene.photographs) {
+    if (std::abs(whole.tag.aspect / cropped.tag.aspect - 1) < kSameShape &&
+        std::abs(whole.tag.view_angle_deg - cropped.tag.view_angle_deg) < kSameAngleDeg &&
+        !SeemsCropped(scene, whole) && whole.size.width >= cropped.size.width &&
+        whole.size.height >= cropped.size.height) {
+      if (found && !HasSameSize(found->size, whole.size)) return nullptr;
+      found = &whole;
+    }
+  }
+  return found;
+}
+
+void AdviseOnCrop(const AdviceContext& context, const Photograph& photograph) {
+  const double pixel_shape = *CommonPixelShape(context.scene, photograph);
+  const auto pixels = [](const Photograph& one) {
+    return std::to_string(one.size.width) + " x " + std::to_string(one.size.height) + " pixels";
+  };
+  const double aspect = PictureAspect(photograph) * pixel_shape;
+  const std::string own = FormatNumber(std::round(1000 * aspect) / 1000);
+  const bool is_square = std::abs(pixel_shape - 1) < kSameShape;
+  const std::string message =
+      "a " + FormatNumber(photograph.tag.aspect) + " does not suit " + pixels(photograph) + " (" +
+      FormatNumber(std::round(100 * aspect) / 100) +
+      (is_square ? " for square pixels" : " for pixels as the other photographs have them") +
+      "): a crop?";
+  std::string remedy =
+      "a and v are of what the picture shows, not of the whole frame: write a " + own;
+  if (const Photograph* whole = FindWholeFrame(context.scene, photograph)) {
+    const double half = std::tan(RadiansFromDegrees(photograph.tag.view_angle_deg) / 2) *
+                        photograph.size.width / whole->size.width;
+    remedy += " and, if it was cut from " + pixels(*whole) + " as those of " + whole->name +
+              " and not made smaller, v " +
+              FormatNumber(std::round(10 * DegreesFromRadians(2 * std::atan(half))) / 10) +
+              ", or put the whole picture there";
+  } else {
+    remedy += " and in v the angle across what is left, or put the whole picture there";
+  }
+  context.Add(Advice::Severity::kDetail, TagPlace(context.scene, photograph), message, remedy);
+}
+
 // A photograph with the same view angle whose tag suits this one's picture: `a` is wrong then, and
 // `v` is not.
 bool HasTwinOfItsShape(const AdviceContext& context, const Photograph& photograph) {
@@ -48,6 +181,10 @@ bool HasTwinOfItsShape(const AdviceContext& context, const Photograph& photograp
 void AdviseOnAspect(const AdviceContext& context, const Photograph& photograph) {
   const double tag_aspect = photograph.tag.aspect;
   const double aspect = static_cast<double>(photograph.size.width) / photograph.size.height;
+  if (SeemsCropped(context.scene, photograph)) {
+    AdviseOnCrop(context, photograph);
+    return;
+  }
   if (SuitsPicture(photograph)) return;
   const std::string picture = photograph.image_file.filename().string();
   std::string message = "aspect " + FormatNumber(tag_aspect) + " does not suit " + picture +

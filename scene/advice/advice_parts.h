@@ -77,6 +77,8 @@ void AdviseOnTags(const AdviceContext& context, const std::vector<TagDoubt>& dou
 bool SuitsPicture(const Photograph& photograph);
 void AdviseOnFrames(const AdviceContext& context);
 // Pictures that are there twice, and tags that were copied; it reads pictures.
+// A part of a picture with the whole frame's `a`, as the other photographs tell.
+bool SeemsCropped(const Scene& scene, const Photograph& photograph);
 void AdviseOnDoubles(const AdviceContext& context);
 
 }  // namespace groundglass

@@ -125,7 +125,10 @@ void WeighTag(const AdviceContext& context,
               TagDoubt& doubt) {
   const bool is_poor = expected > 0 ? fit.nearby < kPoorShare * expected
                                     : fit.as_read > 0 && fit.as_read < kClearScore - kClearLead;
-  if ((doubt.wrong.empty() && !is_poor) || !SuitsPicture(photograph)) return;
+  if ((doubt.wrong.empty() && !is_poor) || !SuitsPicture(photograph) ||
+      SeemsCropped(context.scene, photograph)) {
+    return;
+  }
   const Scale scale(context, photograph);
   if (doubt.is_only_unusual && scale.Score(doubt.meant.front().tag) < fit.nearby - kEquallyGood) {
     doubt = {};  // the picture suits the tag as it is

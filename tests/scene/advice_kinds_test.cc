@@ -5,12 +5,14 @@
 #include "scene/formats/image_io.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/frames.h"
+#include "scene/text.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace groundglass {
@@ -134,6 +136,41 @@ TEST(FindOddities, OneAspectThatIsTheWrongWayRound) {
   scene.photographs[4].tag.aspect = 0.667;
   EXPECT_THAT(Told(scene, true),
               ElementsAre(AllOf(HasSubstr("aspect 0.667 does not suit"), HasSubstr("write 1.5"))));
+}
+
+TEST(FindOddities, ACropWithTheWholeFramesAspect) {
+  // A quarter is cut off at its sides.
+  Scene scene = Hall();
+  Photograph& cropped = scene.photographs[2];
+  const ImageSize whole = cropped.size;
+  cropped.size.width = whole.width * 3 / 4;
+  const std::vector<std::string> told = Told(scene, false);
+  ASSERT_EQ(told.size(), 1u);
+  const double v = cropped.tag.view_angle_deg;
+  const double left = 2 * std::atan(0.75 * std::tan(v * M_PI / 360)) * 180 / M_PI;
+  EXPECT_THAT(told[0],
+              AllOf(HasSubstr("does not suit " + std::to_string(cropped.size.width) + " x "),
+                    HasSubstr("for square pixels): a crop?"),
+                    HasSubstr("v " + FormatNumber(std::round(10 * left) / 10))));
+  // With its own it is in order.
+  cropped.tag.aspect *= 0.75;
+  cropped.tag.view_angle_deg = left;
+  EXPECT_THAT(Told(scene, false), IsEmpty());
+}
+
+TEST(FindOddities, PixelsThatAreOblongByDesignAreNoCrop) {
+  // All of them; some of a camera's; one still of a video.
+  Scene all = Hall();
+  for (Photograph& photograph : all.photographs) photograph.size.width *= 9;
+  for (Photograph& photograph : all.photographs) photograph.size.width /= 8;
+  EXPECT_THAT(Told(all, false), IsEmpty());
+  Scene some = Hall();
+  for (size_t i = 0; i < 3; ++i) some.photographs[i].size = all.photographs[i].size;
+  EXPECT_THAT(Told(some, false), IsEmpty());
+  Scene still = Hall();
+  still.photographs[2].size = {720, 480};
+  still.photographs[2].tag.aspect = 4.0 / 3;
+  EXPECT_THAT(Told(still, false), IsEmpty());
 }
 
 TEST(FindOddities, SlipsOfTheDecimalPointAndTheSign) {
