@@ -47,6 +47,22 @@ bool IsPlausible(const Standpoint& standpoint) {
          standpoint.size_share > 0.01;
 }
 
+namespace {
+
+// Nearly nothing that the photographs show of the model is a front.
+bool ShowsBacksOnly(const AdviceContext& context) {
+  constexpr double kFewFronts = 0.1;
+  double model_share = 0;
+  double front_share = 0;
+  for (const Standpoint& standpoint : context.standpoints) {
+    model_share += standpoint.model_share;
+    front_share += standpoint.model_share * standpoint.front_share;
+  }
+  return front_share < kFewFronts * model_share;
+}
+
+}  // namespace
+
 std::vector<Advice> FindOddities(const Scene& scene,
                                  const ModelOptions& options,
                                  bool with_pictures) {
@@ -66,9 +82,12 @@ std::vector<Advice> FindOddities(const Scene& scene,
   const PictureJudge* judge = with_pictures ? &*pictures : nullptr;
   const Misreading misreading = AdviseOnReading(context, judge);
   AdviseOnModel(context, misreading);
+  // Where some faces show their fronts, the others are turned by themselves.
+  const bool has_turned =
+      misreading == Misreading::kNone && !ShowsBacksOnly(context) && AdviseOnWinding(context);
   // One cause, one advice: what a model that was misread does to its tags and pictures is no news.
   const bool is_misread =
-      misreading != Misreading::kNone || AdviseOnBacks(context, judge) ||
+      misreading != Misreading::kNone || (!has_turned && AdviseOnBacks(context, judge)) ||
       (judge && (AdviseOnMirror(context, *judge) || AdviseOnDatum(context, *judge)));
   std::vector<PictureFit> fits;
   if (!is_misread) {

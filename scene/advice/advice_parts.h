@@ -54,6 +54,8 @@ void AdviseOnModel(const AdviceContext& context, Misreading misreading);
 // Faces that show their backs: they run clockwise, or the model is mirrored about a line that its
 // tags suit as well, which the pictures tell if there is a judge. True if that is so.
 bool AdviseOnBacks(const AdviceContext& context, const PictureJudge* judge);
+// Single faces that are turned, among others that are not. True if there are any.
+bool AdviseOnWinding(const AdviceContext& context);
 // A model that shows its fronts and is mirrored all the same, or tags whose axes are others though
 // their cameras look at it, as the pictures tell. True if so.
 bool AdviseOnMirror(const AdviceContext& context, const PictureJudge& judge);
@@ -75,10 +77,10 @@ std::vector<TagDoubt> FindTagDoubts(const AdviceContext& context);
 void AdviseOnTags(const AdviceContext& context, const std::vector<TagDoubt>& doubts);
 // Shape and turn of the pictures against their tags.
 bool SuitsPicture(const Photograph& photograph);
-void AdviseOnFrames(const AdviceContext& context);
-// Pictures that are there twice, and tags that were copied; it reads pictures.
 // A part of a picture with the whole frame's `a`, as the other photographs tell.
 bool SeemsCropped(const Scene& scene, const Photograph& photograph);
+void AdviseOnFrames(const AdviceContext& context);
+// Pictures that are there twice, and tags that were copied; it reads pictures.
 void AdviseOnDoubles(const AdviceContext& context);
 
 }  // namespace groundglass

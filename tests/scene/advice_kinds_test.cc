@@ -2,6 +2,7 @@
 // Part of Groundglass.
 // Kinds of mistakes that the tags alone do not tell, or tell wrongly: the bundled hall with each.
 #include "scene/advice/advice.h"
+#include "scene/advice/turned_faces.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/frames.h"
@@ -136,6 +137,44 @@ TEST(FindOddities, OneAspectThatIsTheWrongWayRound) {
   scene.photographs[4].tag.aspect = 0.667;
   EXPECT_THAT(Told(scene, true),
               ElementsAre(AllOf(HasSubstr("aspect 0.667 does not suit"), HasSubstr("write 1.5"))));
+}
+
+TEST(FindOddities, SingleFacesThatAreTurned) {
+  // Each by itself; those that are seen and told, and no other.
+  const auto turned = [](const std::vector<size_t>& faces) {
+    Scene scene = Hall();
+    for (const size_t face : faces) {
+      std::vector<int>& points = scene.model.faces[face].points;
+      std::reverse(points.begin(), points.end());
+    }
+    std::vector<std::string> names;
+    for (const TurnedFace& one : FindTurnedFaces(scene)) {
+      names.push_back(DescribeFace(scene.model, one.face));
+    }
+    return names;
+  };
+  EXPECT_THAT(turned({}), IsEmpty());
+  // The largest one that photographs show.
+  const Scene hall = Hall();
+  size_t largest = 0;
+  std::vector<size_t> half;
+  for (size_t face = 0; face < hall.model.faces.size(); ++face) {
+    const auto plane = ComputeFacePlane(hall.model, static_cast<int>(face));
+    if (face % 2 == 0) half.push_back(face);
+    if (std::abs(plane.normal_in_world.z()) > 0.1) continue;
+    if (ComputeFaceArea(hall.model, static_cast<int>(face)) >
+        ComputeFaceArea(hall.model, static_cast<int>(largest))) {
+      largest = face;
+    }
+  }
+  EXPECT_THAT(turned({largest}), ElementsAre(DescribeFace(hall.model, static_cast<int>(largest))));
+  EXPECT_GE(turned(half).size(), 3u);
+  for (const std::string& name : turned(half)) {
+    const bool is_turned = std::any_of(half.begin(), half.end(), [&](size_t face) {
+      return DescribeFace(hall.model, static_cast<int>(face)) == name;
+    });
+    EXPECT_TRUE(is_turned) << name;
+  }
 }
 
 TEST(FindOddities, ACropWithTheWholeFramesAspect) {
