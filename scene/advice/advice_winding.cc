@@ -22,8 +22,8 @@ namespace groundglass {
 namespace {
 
 // Rays across and down a frame, and how many of them must meet a back for it to be seen.
-constexpr int kRaysAcross = 60;
-constexpr int kRaysDown = 40;
+constexpr int kSightRaysAcross = 60;
+constexpr int kSightRaysDown = 40;
 constexpr int kFewestRays = 4;
 
 struct FaceSight {
@@ -39,10 +39,10 @@ std::vector<FaceSight> FindSights(const Scene& scene, const Visibility& visibili
     const ImageSize& size = photograph->size;
     const Camera camera = CameraFromTag(photograph->tag, size.width, size.height);
     std::map<int, int> backs;
-    for (int y = 0; y < kRaysDown; ++y) {
-      for (int x = 0; x < kRaysAcross; ++x) {
-        const Eigen::Vector2d image_px((x + 0.5) * size.width / kRaysAcross,
-                                       (y + 0.5) * size.height / kRaysDown);
+    for (int y = 0; y < kSightRaysDown; ++y) {
+      for (int x = 0; x < kSightRaysAcross; ++x) {
+        const Eigen::Vector2d image_px((x + 0.5) * size.width / kSightRaysAcross,
+                                       (y + 0.5) * size.height / kSightRaysDown);
         const auto hit = visibility.FirstHit(camera.PositionInWorld(),
                                              UnprojectToWorld(camera, image_px).normalized());
         if (!hit) continue;
