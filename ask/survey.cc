@@ -29,6 +29,12 @@ SurveyPhotograph AsWritten(const Photograph& photograph, const PolygonModel& mod
           photograph.mask_file};
 }
 
+void AddUntagged(const Scene& scene, Survey& survey) {
+  for (const fs::path& image : scene.untagged_images) {
+    survey.left_out.push_back({image.stem().string(), "it has no tag"});
+  }
+}
+
 Survey SurveyOfScene(const Scene& scene) {
   Survey survey;
   survey.model = scene.model;
@@ -38,9 +44,7 @@ Survey SurveyOfScene(const Scene& scene) {
   for (const UnreadablePhotograph& unreadable : scene.unreadable) {
     survey.left_out.push_back({unreadable.photograph.name, unreadable.reasons.front()});
   }
-  for (const fs::path& image : scene.untagged_images) {
-    survey.left_out.push_back({image.stem().string(), "it has no tag"});
-  }
+  AddUntagged(scene, survey);
   return survey;
 }
 
@@ -78,6 +82,7 @@ Survey SurveyOf(const OpenedFolder& opened) {
     for (const Registration& registration : opened.registrations) {
       AddRegistration(registration, opened.scene, survey);
     }
+    AddUntagged(opened.scene, survey);
   }
   survey.textures = opened.textured.faces;
   return survey;
@@ -97,11 +102,13 @@ int FindSurveyPhotograph(const Survey& survey, const std::string& word) {
   if (const std::optional<size_t> found = FindPhotograph(word, names)) {
     return static_cast<int>(*found);
   }
-  for (const LeftOutPhotograph& left_out : survey.left_out) {
-    if (left_out.name == word) {
-      throw Error("photograph " + word + " has no camera that can be asked: " + left_out.reason);
-    }
+  std::vector<PhotographName> left_out;
+  for (const LeftOutPhotograph& one : survey.left_out) left_out.push_back({one.name, ""});
+  if (const std::optional<size_t> found = FindPhotograph(word, left_out)) {
+    const LeftOutPhotograph& one = survey.left_out[*found];
+    throw Error("photograph " + one.name + " has no camera that can be asked: " + one.reason);
   }
+  names.insert(names.end(), left_out.begin(), left_out.end());
   throw Error("there is no photograph " + word + NearestName(word, names));
 }
 
