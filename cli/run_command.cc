@@ -11,6 +11,7 @@
 #include "cli/warnings_last.h"
 #include "pipeline/main_job.h"
 #include "pipeline/photograph_selection.h"
+#include "scene/formats/unfinished_files.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -129,6 +130,7 @@ int Run(const RunArguments& arguments) {
   registering.options.Check();
   baking.options.Check();
   baking.Options();  // wrong usage is told before anything is read
+  const WordsOnInterrupt words("groundglass: stopped; the same command goes on from here");
   const Scene scene = ReadSceneForCommand(registering, common, baking.selection.exclude);
   const WarningsLast warnings(scene.warnings, common.quiet);
   if (common.dry_run) {

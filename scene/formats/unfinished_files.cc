@@ -28,7 +28,23 @@ std::array<Slot, kNumSlots>& Slots() {
   return slots;
 }
 
+std::atomic<const char*> words_on_interrupt = nullptr;
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+void WriteToStandardError(const char* text) {
+  size_t length = 0;
+  while (text[length] != 0) ++length;
+  // Nobody is left to be told that it cannot be written.
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, length);
+}
+
 extern "C" void RemoveAndEnd(int signal) {
+  const char* const words = words_on_interrupt.load();
+  if (signal == SIGINT && words != nullptr) {
+    WriteToStandardError("\n");  // after ^C
+    WriteToStandardError(words);
+    WriteToStandardError("\n");
+  }
   for (Slot& slot : Slots()) {
     if (slot.holds_name.load(std::memory_order_acquire)) unlink(slot.name.data());
   }
@@ -60,6 +76,9 @@ UnfinishedFile::~UnfinishedFile() {
   slot.holds_name.store(false);
   slot.is_taken.store(false);
 }
+
+WordsOnInterrupt::WordsOnInterrupt(const char* words) { words_on_interrupt.store(words); }
+WordsOnInterrupt::~WordsOnInterrupt() { words_on_interrupt.store(nullptr); }
 
 void RemoveUnfinishedFilesOnSignals() {
   Slots();  // made before a signal could need them

@@ -23,4 +23,15 @@ class UnfinishedFile {
 // have without. One that is ignored stays so (nohup).
 void RemoveUnfinishedFilesOnSignals();
 
+// What SIGINT says to the person at the keyboard before it ends the program: one line on stderr. As
+// long as this lives.
+class WordsOnInterrupt {
+ public:
+  // `words`: a literal.
+  explicit WordsOnInterrupt(const char* words);
+  WordsOnInterrupt(const WordsOnInterrupt&) = delete;
+  WordsOnInterrupt& operator=(const WordsOnInterrupt&) = delete;
+  ~WordsOnInterrupt();
+};
+
 }  // namespace groundglass

@@ -3,6 +3,7 @@
 #include "scene/formats/unfinished_files.h"
 
 #include "scene/formats/atomic_file.h"
+#include "scene/formats/view_io.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 
@@ -69,6 +71,21 @@ TEST(UnfinishedFiles, WritersWithANameOfTheirOwnToo) {
   });
   EXPECT_TRUE(WIFSIGNALED(status));
   EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(UnfinishedFiles, AnInterruptSaysWhatItWasToldToSay) {
+  const TemporaryFolder folder;
+  const auto said_at = [&](int signal) {
+    const int status = StatusAfter(signal, [&](const std::function<void()>& wait) {
+      if (freopen((folder / "said").c_str(), "w", stderr) == nullptr) _exit(3);
+      const WordsOnInterrupt words("stopped; the same command goes on from here");
+      wait();
+    });
+    EXPECT_TRUE(WIFSIGNALED(status));
+    return ReadTextFile(folder / "said");
+  };
+  EXPECT_EQ(said_at(SIGINT), "\nstopped; the same command goes on from here\n");
+  EXPECT_EQ(said_at(SIGTERM), "");
 }
 
 // As under nohup.
