@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "report/report_data.h"
 #include "report/report_text.h"
+#include "scene/advice/turned_faces.h"
 #include "scene/error.h"
 #include "scene/formats/json_fault.h"
 #include "scene/text.h"
@@ -59,6 +60,10 @@ std::vector<Standpoint> FindStandpoints(const Json& coverage) {
     standpoint->faces.push_back(name.empty() ? "face " + std::to_string(face.value("face", 0))
                                              : name);
   }
+  // Slivers along edges are no reason to go there.
+  std::erase_if(standpoints, [](const Standpoint& standpoint) {
+    return FormatRounded(standpoint.missing_area, 10) == "0";
+  });
   std::stable_sort(standpoints.begin(), standpoints.end(), [](const auto& a, const auto& b) {
     return a.missing_area > b.missing_area;
   });
@@ -129,6 +134,22 @@ void AddUntagged(const ReportInput& input, std::vector<Step>& steps) {
                    ""});
 }
 
+// Faces that take no texture since they are turned: nowhere to stand would show them.
+void AddTurnedFaces(const ReportInput& input, std::vector<Step>& steps) {
+  if (!input.scene) return;
+  const std::vector<TurnedFace> turned = FindTurnedFaces(*input.scene);
+  for (size_t i = 0; i < std::min(turned.size(), kMostNamedFaces); ++i) {
+    steps.push_back({"Turn " + DescribeFace(input.scene->model, turned[i].face) +
+                         " in the model: photographs see its back, and its front never, so that it "
+                         "takes no texture.",
+                     ""});
+  }
+  if (turned.size() <= kMostNamedFaces) return;
+  steps.push_back({"Turn " + std::to_string(turned.size() - kMostNamedFaces) +
+                       " more faces that are seen from their backs; groundglass check tells.",
+                   ""});
+}
+
 }  // namespace
 
 // What can be mended at the desk comes before a walk to the building.
@@ -142,6 +163,7 @@ mustache::data NextStepsData(const ReportInput& input) {
         input, Verdict::kReview, "is used at lower weight: look whether the edges fit.", steps);
   }
   AddUntagged(input, steps);
+  AddTurnedFaces(input, steps);
   if (input.coverage) {
     try {
       const std::vector<Standpoint> standpoints = FindStandpoints(*input.coverage);

@@ -69,7 +69,10 @@ class ReportOf : public testing::Test {
            "missing": {"area": 8, "centre": [1, 2, 3], "stand_at": [12.3, -4.1, 5]}},
           {"face": 3, "name": "yard", "area": 8, "covered_area": 0, "texels": 100,
            "covered_texels": 0, "texel_size": 0.05, "sources": [],
-           "missing": {"area": 8, "centre": [1, 2, 3]}}]})");
+           "missing": {"area": 8, "centre": [1, 2, 3]}},
+          {"face": 4, "name": "sill", "area": 8, "covered_area": 7.8, "texels": 100,
+           "covered_texels": 98, "texel_size": 0.05, "sources": [],
+           "missing": {"area": 0.2, "centre": [9, 2, 3], "stand_at": [92.3, -4.1, 5]}}]})");
   }
 
   const TemporaryFolder temporary_;
@@ -134,6 +137,7 @@ TEST_F(ReportOf, PointsOutFacesThatNobodySees) {
   EXPECT_THAT(html,
               HasSubstr("<li>Take a photograph from x 12, y \u22124, z 5 units: it would show 8 "
                         "units\u00b2 that none shows yet (north).</li>"));
+  EXPECT_THAT(html, Not(HasSubstr("would show 0")));        // the sill
   EXPECT_THAT(html, HasSubstr("<td>12, \u22124, 5</td>"));  // where to stand
   EXPECT_THAT(html, HasSubstr("where none is named, none was found"));
   EXPECT_THAT(html,
