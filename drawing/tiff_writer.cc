@@ -126,7 +126,8 @@ void WriteTiles(TIFF* tiff,
                           static_cast<uint32_t>(first + row),
                           0,
                           0) < 0) {
-          throw Error(file, "cannot write this file: is the disk full?");
+          throw Error(
+              file, "cannot write this file; if the disk is full, free some space, then run again");
         }
       }
     }
@@ -147,7 +148,9 @@ void WriteTiffOf(const std::filesystem::path& file,
     SetForm<T>(tiff.get(), sheet, channels);
     SetPlace(tiff.get(), sheet);
     WriteTiles<T>(tiff.get(), file, sheet, channels, rows);
-    if (!TIFFFlush(tiff.get())) throw Error(file, "cannot write this file: is the disk full?");
+    if (!TIFFFlush(tiff.get()))
+      throw Error(file,
+                  "cannot write this file; if the disk is full, free some space, then run again");
   });
 }
 

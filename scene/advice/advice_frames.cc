@@ -200,7 +200,7 @@ void AdviseOnAspect(const AdviceContext& context, const Photograph& photograph) 
       remedy =
           "if the picture lies on its side when it is shown, take the turn out (exiftool "
           "-Orientation=1 -n " +
-          picture + "); if it stands upright, write a " +
+          picture + "); if it is shown the right way up, write a " +
           FormatNumber(std::round(1000 * aspect) / 1000) +
           " and in v the angle across the upright frame";
     } else if (HasTwinOfItsShape(context, photograph)) {

@@ -31,7 +31,10 @@ fs::path TemporaryName(const fs::path& file) {
 }
 
 [[noreturn]] void Fail(const fs::path& file, int error) {
-  throw Error(file, std::string("cannot write this file: ") + std::strerror(error));
+  const bool is_full = error == ENOSPC || error == EDQUOT;
+  throw Error(file,
+              std::string("cannot write this file: ") + std::strerror(error) +
+                  (is_full ? "; free some space, then run again" : ""));
 }
 
 // What a system call answers once no signal interrupts it.
