@@ -79,7 +79,8 @@ CalibrationScene ReadCalibrationScene(const CalibrationArguments& arguments,
 
 std::optional<VideoAspect> VideoAspectOf(const fs::path& file, const FrameOptions& options) {
   const PhotographMetadata metadata = ReadPhotographMetadata(file);
-  if (FindMetadataLens(metadata).view_angle_deg) return std::nullopt;
+  const bool is_digital = metadata.made_by == PictureMaker::kDigitalCamera;
+  if (is_digital && FindMetadataLens(metadata).view_angle_deg) return std::nullopt;
   return FindVideoAspect(metadata.size.width, metadata.size.height, options);
 }
 

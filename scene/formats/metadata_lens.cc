@@ -16,6 +16,9 @@ namespace {
 
 // Half the diagonal of 36 mm x 24 mm, twice.
 const double kDiagonal35mm = std::hypot(36.0, 24.0);
+constexpr double kShape35mm = 1.5;
+// Focal lengths that differ by no more than this share are the same; one of them is rounded.
+constexpr double kSameFocalLength = 0.02;
 // A whole number that stands for any within half of it, one standard deviation.
 const double kRounding = 1 / std::sqrt(12.0);
 // Sides that differ by no more than this are the same shape: whole pixels, and cameras' margins.
@@ -62,6 +65,37 @@ WholeFrame FindWholeFrame(const PhotographMetadata& metadata) {
   }
   frame.is_known = frame.is_known && frame.width_px >= now.width && frame.height_px >= now.height;
   return frame;
+}
+
+// How much less than of a digital camera's whole frame is known of a picture, as shares.
+struct ScanDoubt {
+  double focal = 0;
+  double aspect = 0;
+  std::string remark;
+};
+
+// 36 mm x 24 mm of film, if the focal length for it is the lens' own.
+bool IsOn35mmFilm(const PhotographMetadata& metadata) {
+  return metadata.focal_length_mm && metadata.focal_length_35mm &&
+         std::abs(*metadata.focal_length_35mm / *metadata.focal_length_mm - 1) < kSameFocalLength;
+}
+
+ScanDoubt FindScanDoubt(const PhotographMetadata& metadata, const MetadataLensOptions& options) {
+  if (metadata.made_by == PictureMaker::kDigitalCamera) return {};
+  ScanDoubt doubt{options.scan_scale_share, options.scan_aspect_share, ""};
+  doubt.remark = metadata.made_by == PictureMaker::kScanner
+                     ? ", scanned"
+                     : ", perhaps scanned, since nothing says that a digital camera took it";
+  if (!IsOn35mmFilm(metadata)) return doubt;
+  const double shape = static_cast<double>(std::max(metadata.size.width, metadata.size.height)) /
+                       std::min(metadata.size.width, metadata.size.height);
+  const double off = std::abs(std::log(shape / kShape35mm));
+  if (off <= kSameShape) return doubt;
+  // Cropped from the sides or squeezed: the diagonal's view angle lies midway between.
+  doubt.focal = std::hypot(doubt.focal, off / 2);
+  doubt.aspect = std::hypot(doubt.aspect, off);
+  doubt.remark += "; " + SidesOf(metadata.size) + " is not the shape of 35 mm film";
+  return doubt;
 }
 
 // The focal length in pixels of the picture as it is, with its standard deviation as a share.
@@ -132,37 +166,44 @@ std::string WhyNone(const PhotographMetadata& metadata, const MetadataLensOption
 void MetadataLensOptions::Check() const {
   CheckFromTo(focal_length_share, 1e-6, 1, "metadata lens options: focal_length_share");
   CheckAbove(sensor_table_share, 0, "metadata lens options: sensor_table_share");
+  CheckAtLeast(scan_scale_share, 0, "metadata lens options: scan_scale_share");
+  CheckAtLeast(scan_aspect_share, 0, "metadata lens options: scan_aspect_share");
   if (sensor_width_mm) CheckFromTo(*sensor_width_mm, 1, 500, "sensor-width");
 }
 
 MetadataLens FindMetadataLens(const PhotographMetadata& metadata,
                               const MetadataLensOptions& options) {
   options.Check();
-  if (metadata.is_panorama) return {{}, 0, "a panorama, which has no view angle of a lens"};
+  if (metadata.is_panorama) return {{}, 0, 0, "a panorama, which has no view angle of a lens"};
   if (metadata.digital_zoom && *metadata.digital_zoom > 1.01) {
     return {{},
+            0,
             0,
             "digital zoom of " + FormatNumber(*metadata.digital_zoom) +
                 ", which cameras count into their focal lengths or not"};
   }
   const WholeFrame frame = FindWholeFrame(metadata);
   const std::optional<FocalLength> focal = FindFocalLength(metadata, frame, options);
-  if (!focal) return {{}, 0, WhyNone(metadata, options)};
+  if (!focal) return {{}, 0, 0, WhyNone(metadata, options)};
   if (!frame.is_known) {
     return {{},
+            0,
             0,
             "the picture has " + SidesOf(metadata.size) + " pixels" + frame.remark +
                 " by both sides, so its scale is not known"};
   }
+  const ScanDoubt doubt = FindScanDoubt(metadata, options);
   const double half_tangent = metadata.size.width / (2 * focal->px);
   MetadataLens found;
   found.view_angle_deg = DegreesFromRadians(2 * std::atan(half_tangent));
-  found.sigma_deg =
-      DegreesFromRadians(2 * half_tangent / (1 + half_tangent * half_tangent)) * focal->sigma_share;
+  found.sigma_deg = DegreesFromRadians(2 * half_tangent / (1 + half_tangent * half_tangent)) *
+                    std::hypot(focal->sigma_share, doubt.focal);
+  found.sigma_aspect_share = std::hypot(kSquarePixels, doubt.aspect);
   const std::string camera = std::string(TrimBlanks(metadata.model.starts_with(metadata.maker)
                                                         ? metadata.model
                                                         : metadata.maker + " " + metadata.model));
-  found.how = focal->how + (camera.empty() ? "" : " (" + camera + ")") + frame.remark;
+  found.how =
+      focal->how + (camera.empty() ? "" : " (" + camera + ")") + frame.remark + doubt.remark;
   return found;
 }
 
@@ -173,7 +214,7 @@ KnownKeys KeysOfMetadata(const MetadataLens& lens, const ImageSize& size) {
   AddKnown(keys, "v", *lens.view_angle_deg, lens.how);
   AddKnown(keys, "sigma_v", lens.sigma_deg);
   AddKnown(keys, "a", aspect);
-  AddKnown(keys, "sigma_a", kSquarePixels * aspect);
+  AddKnown(keys, "sigma_a", lens.sigma_aspect_share * aspect);
   return keys;
 }
 

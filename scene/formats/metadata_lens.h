@@ -21,6 +21,10 @@ struct MetadataLensOptions {
   // sensor, one standard deviation as a share: they round, and some follow the makers' data sheets.
   std::filesystem::path sensor_tables = "/usr/share/lensfun";
   double sensor_table_share = 0.015;
+  // Of what may be a scan of film: how far mount and scanner change its scale, and the shape of its
+  // pixels; one standard deviation as a share.
+  double scan_scale_share = 0.01;
+  double scan_aspect_share = 0.005;
 
   void Check() const;  // throws Error naming the first field out of range
 };
@@ -29,6 +33,8 @@ struct MetadataLensOptions {
 struct MetadataLens {
   std::optional<double> view_angle_deg;
   double sigma_deg = 0;  // one standard deviation
+  // How far pixels may be from square, one standard deviation as a share.
+  double sigma_aspect_share = 0;
   // How it was found ("26 mm for 35 mm film"), or why there is none ("no metadata", ...); one line.
   std::string how;
 };
@@ -38,12 +44,15 @@ struct MetadataLens {
 // table. A picture that was
 // made smaller since keeps its angle; of one that was cropped on one axis the uncropped side tells
 // the scale. Nothing where it would be a guess: no focal length, digital zoom, panoramas, crops on
-// both axes.
+// both axes. What nothing says a digital camera took may be a scan of film, whose mount and scanner
+// widen the standard deviations; and so does a shape that is not 35 mm film's where film of that
+// size was in the camera, since it was cropped or squeezed.
 MetadataLens FindMetadataLens(const PhotographMetadata& metadata,
                               const MetadataLensOptions& options = {});
 
 // What it says as a tag's keys, of a picture of this size: v and, since a camera's pixels are
-// square, a, with their standard deviations; none where there is no view angle.
+// square (a scanner's nearly), a, with their standard deviations; none where there is no view
+// angle.
 KnownKeys KeysOfMetadata(const MetadataLens& lens, const ImageSize& size);
 
 }  // namespace groundglass

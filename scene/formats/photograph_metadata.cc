@@ -11,6 +11,22 @@
 namespace groundglass {
 namespace {
 
+// Of scanners and of the programs that drive them; in lower case. Programs on phones that scan
+// shapes are none of them.
+constexpr std::array<const char*, 11> kScanners = {"vuescan",
+                                                   "silverfast",
+                                                   "nikon scan",
+                                                   "epson scan",
+                                                   "canoscan",
+                                                   "coolscan",
+                                                   "scanjet",
+                                                   "perfection v",
+                                                   "plustek",
+                                                   "noritsu",
+                                                   "flextight"};
+// No digital camera took photographs for sale before it.
+constexpr double kFirstDigitalYear = 1990;
+
 // A text that cannot be a maker's or a model's name.
 std::string CleanName(std::string name) {
   if (name.empty()) return name;
@@ -32,6 +48,7 @@ class MetadataReader {
     found_.is_panorama = !spec_.get_string_attribute("GPano:ProjectionType").empty();
     ReadSizeWhenTaken();
     ReadFocalLength();
+    found_.made_by = FindPictureMaker();
     ReadPosition();
     ReadDirection();
     return std::move(found_);
@@ -85,6 +102,36 @@ class MetadataReader {
     if (resolution && unit >= 2 && unit <= 5) {
       found_.pixels_per_mm = *resolution / mm_of_unit[static_cast<size_t>(unit)];
     }
+  }
+
+  bool NamesAScanner() const {
+    for (const char* field : {"Make", "Model", "Software"}) {
+      const std::string text = LowerCase(spec_.get_string_attribute(field));
+      for (const char* word : kScanners) {
+        if (text.find(word) != std::string::npos) return true;
+      }
+    }
+    return false;
+  }
+
+  // Scanners first: their pictures have a size and a resolution too.
+  PictureMaker FindPictureMaker() const {
+    // EXIF 2.32: 2 to 5 are area sensors, 7 and 8 lines of pixels, as scanners have. FileSource
+    // would say it too, but OpenImageIO does not read it.
+    const int sensing = spec_.get_int_attribute("Exif:SensingMethod", 0);
+    if (sensing == 7 || sensing == 8 || NamesAScanner()) {
+      return PictureMaker::kScanner;
+    }
+    // "1974:07:01 12:00:00"
+    const std::string taken = spec_.get_string_attribute("Exif:DateTimeOriginal");
+    const std::optional<double> year = ParseNumber(taken.substr(0, taken.find(':')));
+    if (year && *year > 1800 && *year < kFirstDigitalYear) return PictureMaker::kScanner;
+    // Cameras write the picture's size, which EXIF demands of them; hands that add a focal length
+    // do not.
+    if ((sensing >= 2 && sensing <= 5) || found_.size_when_taken || found_.pixels_per_mm) {
+      return PictureMaker::kDigitalCamera;
+    }
+    return PictureMaker::kUnknown;
   }
 
   // Degrees, minutes and seconds.

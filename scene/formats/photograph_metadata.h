@@ -32,9 +32,18 @@ struct CompassAndLevel {
   std::string source;               // "XMP drone-dji", ...
 };
 
+// What made a picture's pixels. Film that was scanned may carry its camera's focal length, which
+// somebody wrote in; a mount or the scanner's operator chose what of the frame is seen.
+enum class PictureMaker {
+  kUnknown,  // nothing says so
+  kDigitalCamera,
+  kScanner,
+};
+
 // What an image file says of the photograph's making: EXIF and XMP.
 struct PhotographMetadata {
   std::string maker, model, lens;
+  PictureMaker made_by = PictureMaker::kUnknown;
   std::optional<double> focal_length_mm;
   std::optional<double> focal_length_35mm;   // of the lens with the same view on 36 mm x 24 mm
   std::optional<double> digital_zoom;        // above 1: the middle of the frame alone

@@ -49,6 +49,12 @@ void SayPlace(OIIO::ImageSpec& spec, double latitude_minutes, double longitude_m
   spec.attribute("GPS:LongitudeRef", "W");
 }
 
+// As every camera's pictures do: EXIF demands it.
+void SayDigital(OIIO::ImageSpec& spec) {
+  spec.attribute("Exif:PixelXDimension", 4000);
+  spec.attribute("Exif:PixelYDimension", 3000);
+}
+
 class PhotographMetadataTest : public TemporaryFolder, public testing::Test {
  protected:
   PhotographMetadata Read(const std::function<void(OIIO::ImageSpec&)>& say) {
@@ -68,6 +74,7 @@ class PhotographMetadataTest : public TemporaryFolder, public testing::Test {
 
 TEST_F(PhotographMetadataTest, AFocalLengthFor35mmFilmCountsByTheDiagonal) {
   const MetadataLens lens = LensOf([](OIIO::ImageSpec& spec) {
+    SayDigital(spec);
     spec.attribute("Exif:FocalLengthIn35mmFilm", 26);
     spec.attribute("Model", "Phone 12");
   });
@@ -115,6 +122,7 @@ TEST_F(PhotographMetadataTest, AFocalLengthAloneAsksForTheSensor) {
 
 TEST_F(PhotographMetadataTest, ASensorsSizeComesFromLensfunsNewestTable) {
   const auto say = [](OIIO::ImageSpec& spec) {
+    SayDigital(spec);
     spec.attribute("Exif:FocalLength", 18.0f);
     spec.attribute("Make", "NIKON CORPORATION");
     spec.attribute("Model", "NIKON D80");
@@ -149,6 +157,65 @@ TEST_F(PhotographMetadataTest, ASensorsSizeComesFromLensfunsNewestTable) {
   };
   EXPECT_THAT(FindMetadataLens(Read(say_other), options).how,
               HasSubstr("nor has lensfun's table it"));
+}
+
+// What a camera wrote is known better than what somebody wrote into the scan of a slide.
+TEST_F(PhotographMetadataTest, AScanOfFilmIsKnownLessThanADigitalPhotograph) {
+  const auto lens_of = [&](int width, int height, const std::function<void(OIIO::ImageSpec&)>& by) {
+    WritePhotograph(
+        path() / "s.jpg",
+        [&](OIIO::ImageSpec& spec) {
+          spec.attribute("Exif:FocalLength", 50.0f);
+          spec.attribute("Exif:FocalLengthIn35mmFilm", 50);
+          by(spec);
+        },
+        width,
+        height);
+    return FindMetadataLens(ReadPhotographMetadata(path() / "s.jpg"), Options());
+  };
+  const auto nobody = [](OIIO::ImageSpec&) {};
+  const MetadataLens digital =
+      lens_of(60, 40, [](OIIO::ImageSpec& spec) { spec.attribute("Exif:SensingMethod", 2); });
+  const MetadataLens unknown = lens_of(60, 40, nobody);
+  EXPECT_EQ(digital.how, "50 mm for 35 mm film");
+  EXPECT_DOUBLE_EQ(digital.sigma_aspect_share, 0.001);
+  EXPECT_THAT(unknown.how, HasSubstr(", perhaps scanned, since nothing says that a digital"));
+  EXPECT_DOUBLE_EQ(*unknown.view_angle_deg, *digital.view_angle_deg);
+  // 2 % of the lens and half a millimetre's rounding; 1 % of the mount besides.
+  const double own = std::hypot(0.02, 1 / std::sqrt(12.0) / 50);
+  EXPECT_NEAR(unknown.sigma_deg / digital.sigma_deg, std::hypot(own, 0.01) / own, 1e-9);
+  EXPECT_NEAR(unknown.sigma_aspect_share, 0.0051, 1e-4);
+  // A slide in a television frame, cropped or squeezed: 4:3 is 11.8 % from 3:2.
+  const MetadataLens frame = lens_of(64, 48, nobody);
+  EXPECT_THAT(frame.how, HasSubstr("; 64 x 48 is not the shape of 35 mm film"));
+  EXPECT_NEAR(frame.sigma_aspect_share, 0.118, 0.001);
+  // The whole width of 36 mm, or 32 mm of it: both within two deviations.
+  for (const double width_mm : {36.0, 32.0}) {
+    const double angle_deg = DegreesFromRadians(2 * std::atan(width_mm / 2 / 50));
+    EXPECT_LT(std::abs(*frame.view_angle_deg - angle_deg), 2 * frame.sigma_deg);
+  }
+}
+
+TEST_F(PhotographMetadataTest, ScannersAreKnownByTheirSigns) {
+  const auto made_by = [&](const std::function<void(OIIO::ImageSpec&)>& say) {
+    return Read([&](OIIO::ImageSpec& spec) {
+             SayDigital(spec);
+             say(spec);
+           })
+        .made_by;
+  };
+  EXPECT_EQ(made_by([](OIIO::ImageSpec&) {}), PictureMaker::kDigitalCamera);
+  EXPECT_EQ(Read([](OIIO::ImageSpec&) {}).made_by, PictureMaker::kUnknown);
+  const auto says = [&](const char* field, const char* text) {
+    return made_by([&](OIIO::ImageSpec& spec) { spec.attribute(field, text); });
+  };
+  EXPECT_EQ(says("Software", "VueScan 9 x64"), PictureMaker::kScanner);
+  EXPECT_EQ(says("Model", "CanoScan 9000F"), PictureMaker::kScanner);
+  EXPECT_EQ(says("Software", "3d Scanner App"), PictureMaker::kDigitalCamera);
+  EXPECT_EQ(says("Exif:DateTimeOriginal", "1988:07:01 12:00:00"), PictureMaker::kScanner);
+  EXPECT_EQ(says("Exif:DateTimeOriginal", "2008:07:01 12:00:00"), PictureMaker::kDigitalCamera);
+  EXPECT_EQ(made_by([](OIIO::ImageSpec& spec) { spec.attribute("Exif:SensingMethod", 8); }),
+            PictureMaker::kScanner);
 }
 
 TEST_F(PhotographMetadataTest, BadFocalLengthsAreNamed) {
@@ -246,7 +313,11 @@ TEST(SceneCalibration, ADigitalPhotographNeedsNoViewAngleInItsTag) {
   folder.Write("views/s2.view", kTagWithoutLens);
   WritePhotograph(
       folder.path() / "images/s2.jpg",
-      [](OIIO::ImageSpec& spec) { spec.attribute("Exif:FocalLengthIn35mmFilm", 26); },
+      [](OIIO::ImageSpec& spec) {
+        spec.attribute("Exif:FocalLengthIn35mmFilm", 26);
+        spec.attribute("Exif:PixelXDimension", 30);
+        spec.attribute("Exif:PixelYDimension", 20);
+      },
       30,
       20);
   const Scene scene = ReadScene(folder.path());
