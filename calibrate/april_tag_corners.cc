@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "calibrate/april_tag_corners.h"
 
+#include "calibrate/edge_line.h"
 #include "scene/quantile.h"
 #include "scene/srgb.h"
 
@@ -25,17 +26,17 @@ constexpr double kProfileStepPx = 0.25;
 // The share of an edge left out at each end, and at least so many pixels: the corners' blur.
 constexpr double kEndShare = 0.1;
 constexpr double kEndPx = 3;
-constexpr int kMinCrossings = 6;
 // Edges wider than this (one standard deviation of their blur, pixels), and those within so many
 // deviations of whose levels other cells begin, are measured where they are half as bright.
 constexpr double kSoftPx = 1.1;
 constexpr double kClearOfCells = 1.5;
+// The border and the gap of an AprilTag so small that its edges' levels have no room, but whose
+// middles are far enough from the edge to be looked at; pixels.
+constexpr double kLeastRoomPx = 1.8;
 // Of so many places along an edge its blur is taken.
 constexpr int kBlurPlaces = 9;
 // The least contrast of an edge, of full scale, linear light.
 constexpr double kMinContrast = 0.02;
-// Crossings farther than this many spreads from the line are dirt or a finger.
-constexpr double kOutlierSpreads = 3.5;
 
 // A picture's values in linear light. Codes are turned into light where they are looked at: few of
 // a photograph's pixels are.
@@ -106,10 +107,15 @@ std::optional<double> FindCrossing(const LinearPicture& grey,
   return crossing;
 }
 
-// The light of an AprilTag's black: that of its darkest cells, into which blur brings the least of
-// their neighbours' light.
-std::optional<double> FindBlack(const LinearPicture& grey, const AprilTagDetection& tag) {
-  constexpr size_t kDarkest = 4;
+// The light of an AprilTag's black and white: that of its darkest and brightest cells, into which
+// blur brings the least of their neighbours' light.
+struct Levels {
+  double black = 0;
+  double white = 0;
+};
+
+std::optional<Levels> FindLevels(const LinearPicture& grey, const AprilTagDetection& tag) {
+  constexpr size_t kCells = 4;
   const Eigen::Matrix<double, 2, 4>& corners = tag.corners_px;
   const int cells = kAprilTagCells - 2 + 2 * tag.border_cells;
   std::vector<double> values;
@@ -125,8 +131,9 @@ std::optional<double> FindBlack(const LinearPicture& grey, const AprilTagDetecti
       values.push_back(*value);
     }
   }
-  std::nth_element(values.begin(), values.begin() + kDarkest - 1, values.end());
-  return std::accumulate(values.begin(), values.begin() + kDarkest, 0.0) / kDarkest;
+  std::sort(values.begin(), values.end());
+  return Levels{std::accumulate(values.begin(), values.begin() + kCells, 0.0) / kCells,
+                std::accumulate(values.end() - kCells, values.end(), 0.0) / kCells};
 }
 
 // Where a profile across an edge is half as bright as between black and the white beside it. Blur
@@ -136,16 +143,18 @@ struct HalfCrossing {
   double blur_px = 0;  // one standard deviation, if it is normal
 };
 
-// black_px, white_px: how far inward and outward the border's and the gap's middles lie.
+// black_px, white_px: how far inward and outward the border's and the gap's middles lie. `white`:
+// if not given, what is seen there.
 std::optional<HalfCrossing> FindHalfCrossing(const LinearPicture& grey,
                                              const Eigen::Vector2d& at_px,
                                              const Eigen::Vector2d& outward,
                                              double black,
+                                             std::optional<double> given_white,
                                              double black_px,
                                              double white_px) {
-  double white = 0;
+  double white = given_white.value_or(0);
   constexpr int kWhiteSteps = 2;
-  for (int step = -kWhiteSteps; step <= kWhiteSteps; ++step) {
+  for (int step = -kWhiteSteps; step <= kWhiteSteps && !given_white; ++step) {
     const auto value = Sample(grey, at_px + (white_px + step * kProfileStepPx) * outward);
     if (!value) return std::nullopt;
     white += *value / (2 * kWhiteSteps + 1);
@@ -167,58 +176,6 @@ std::optional<HalfCrossing> FindHalfCrossing(const LinearPicture& grey,
     before = value;
   }
   return std::nullopt;
-}
-
-// A line in undistorted pixels: points p with normal . p = offset. The deviations of its two ends
-// from the truth have this covariance for crossings with a noise of 1 px.
-struct EdgeLine {
-  Eigen::Vector2d normal;
-  double offset = 0;
-  Eigen::Matrix2d end_covariance;
-};
-
-// Least squares through the points, without outliers; nothing if too few are left.
-std::optional<EdgeLine> FitLine(std::vector<Eigen::Vector2d> points,
-                                const Eigen::Vector2d& start,
-                                const Eigen::Vector2d& end) {
-  const Eigen::Vector2d along = (end - start).normalized();
-  const Eigen::Vector2d across(-along.y(), along.x());
-  for (int round = 0;; ++round) {
-    const double count = static_cast<double>(points.size());
-    if (count < kMinCrossings) return std::nullopt;
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-    for (const Eigen::Vector2d& point : points) mean += point / count;
-    double along_along = 0;
-    double along_across = 0;
-    for (const Eigen::Vector2d& point : points) {
-      const double s = along.dot(point - mean);
-      along_along += s * s;
-      along_across += s * across.dot(point - mean);
-    }
-    const double slope = along_across / along_along;
-    const auto distance = [&](const Eigen::Vector2d& point) {
-      return std::abs(across.dot(point - mean) - slope * along.dot(point - mean));
-    };
-    std::vector<double> distances;
-    for (const Eigen::Vector2d& point : points) distances.push_back(distance(point));
-    const double spread = std::max(1.48 * UpperMedian(std::move(distances)), 0.02);
-    const size_t removed = std::erase_if(points, [&](const Eigen::Vector2d& point) {
-      return distance(point) > kOutlierSpreads * spread;
-    });
-    if (removed > 0 && round < 5) continue;
-
-    EdgeLine line;
-    line.normal = (across - slope * along).normalized();
-    line.offset = line.normal.dot(mean);
-    const double at_start = along.dot(start - mean);
-    const double at_end = along.dot(end - mean);
-    line.end_covariance.setConstant(1 / count);
-    line.end_covariance(0, 0) += at_start * at_start / along_along;
-    line.end_covariance(1, 1) += at_end * at_end / along_along;
-    line.end_covariance(0, 1) += at_start * at_end / along_along;
-    line.end_covariance(1, 0) = line.end_covariance(0, 1);
-    return line;
-  }
 }
 
 // One edge of an AprilTag's black square as it is to be measured; pixels.
@@ -255,14 +212,19 @@ EdgeToMeasure EdgeOf(const AprilTagDetection& tag, int number, double gap_share)
 struct EdgeLook {
   double blur_px = 0;           // one standard deviation
   std::optional<double> black;  // if they are soft: where they are half as bright
+  std::optional<double> white;  // if the gap is too narrow to show it
 };
 
 EdgeLook FindLook(const LinearPicture& grey,
                   const AprilTagDetection& tag,
                   const std::array<EdgeToMeasure, 4>& edges) {
   EdgeLook look;
-  const std::optional<double> black = FindBlack(grey, tag);
-  if (!black) return look;
+  const std::optional<Levels> levels = FindLevels(grey, tag);
+  if (!levels) return look;
+  const bool is_small = std::any_of(edges.begin(), edges.end(), [](const EdgeToMeasure& edge) {
+    return edge.ReachPx() < kMinReachPx;
+  });
+  if (is_small) look.white = levels->white;
   std::vector<double> blurs;
   double room_left_px = HUGE_VAL;
   for (const EdgeToMeasure& edge : edges) {
@@ -273,7 +235,8 @@ EdgeLook FindLook(const LinearPicture& grey,
       const auto half = FindHalfCrossing(grey,
                                          edge.from + s * edge.along,
                                          edge.outward,
-                                         *black,
+                                         levels->black,
+                                         look.white,
                                          0.5 * edge.border_px,
                                          0.5 * edge.gap_px);
       if (half) blurs.push_back(half->blur_px);
@@ -281,7 +244,8 @@ EdgeLook FindLook(const LinearPicture& grey,
   }
   if (blurs.size() < kBlurPlaces) return look;
   look.blur_px = UpperMedian(std::move(blurs));
-  if (look.blur_px > kSoftPx || kClearOfCells * look.blur_px > room_left_px) look.black = black;
+  if (look.blur_px > kSoftPx || kClearOfCells * look.blur_px > room_left_px)
+    look.black = levels->black;
   return look;
 }
 
@@ -299,6 +263,7 @@ std::vector<Eigen::Vector2d> FindCrossings(const LinearPicture& grey,
                                                   on_edge,
                                                   edge.outward,
                                                   *look.black,
+                                                  look.white,
                                                   0.5 * edge.border_px,
                                                   0.5 * edge.gap_px)) {
       crossing = half->at_px;
@@ -321,9 +286,14 @@ std::optional<AprilTagCorners> MeasureCorners(const LinearPicture& grey,
   for (int number = 0; number < 4; ++number) {
     EdgeToMeasure& edge = edges[static_cast<size_t>(number)];
     edge = EdgeOf(start, number, gap_share);
-    if (edge.ReachPx() < kMinReachPx) return std::nullopt;
+    if (edge.RoomPx() < kLeastRoomPx) return std::nullopt;
   }
   const EdgeLook look = FindLook(grey, start, edges);
+  for (const EdgeToMeasure& edge : edges) {
+    if (edge.ReachPx() >= kMinReachPx) continue;
+    // Its levels are looked at half way into border and gap, beyond the edge's own blur.
+    if (!look.black || kClearOfCells * look.blur_px > 0.5 * edge.RoomPx()) return std::nullopt;
+  }
   std::array<EdgeLine, 4> lines;
   for (size_t number = 0; number < 4; ++number) {
     const EdgeToMeasure& edge = edges[number];

@@ -19,18 +19,18 @@ struct SeenTag {
   Eigen::Matrix<double, 8, 8> root_information;  // of an edge point's noise of 1 px
 };
 
-// View angle (radians), shift_x, shift_y and k1, as in a view file.
-constexpr int kNumTagLens = 4;
+// View angle (radians), shift_x, shift_y, k1 and aspect, as in a view file.
+constexpr int kNumTagLens = 5;
 using TagLens = Eigen::Matrix<double, kNumTagLens, 1>;
 
 // Whitened residual of a tag's corners, in units of an edge point's noise:
 //   r = S (p - o),  S^T S = information,  p_i = project(lens, R (X_i + d) + t)
 // with project as in scene/view_tag.h. Blocks: rotation 4 (cam_from_world, unit quaternion
-// x y z w), translation 3 (model's unit), lens 4 (TagLens), d 3: how far the whole tag stands from
+// x y z w), translation 3 (model's unit), lens 5 (TagLens), d 3: how far the whole tag stands from
 // its surveyed place (model's unit). Residual 8. A corner behind the camera fails the evaluation.
 struct SeenTagCost {
   SeenTag seen;
-  ViewTag fixed;  // its aspect, k2, k3, p1, p2
+  ViewTag fixed;  // its k2, k3, p1, p2
   double width_px = 0;
   double height_px = 0;
 
@@ -42,7 +42,7 @@ struct SeenTagCost {
     const Eigen::Map<const Eigen::Vector3<T>> off(offset);
     using std::tan;
     const T focal_x_px = T(0.5 * width_px) / tan(0.5 * lens[0]);
-    const T focal_y_px = focal_x_px * T(fixed.aspect * height_px / width_px);
+    const T focal_y_px = focal_x_px * lens[4] * T(height_px / width_px);
     const T center_x_px = T(width_px) * (0.5 + lens[1]);
     const T center_y_px = T(0.5 * height_px) + lens[2] * T(width_px) * focal_y_px / focal_x_px;
     Distortion<T> distortion;

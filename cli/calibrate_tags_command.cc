@@ -4,15 +4,18 @@
 #include "cli/calibrate_parts.h"
 #include "cli/calibration_scene.h"
 #include "cli/json_output.h"
+#include "register/register.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/lens.h"
 #include "scene/formats/metadata_lens.h"
 #include "scene/formats/view_io.h"
+#include "scene/text.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -39,6 +42,7 @@ KnownKeys KeysOfLensFile(const Lens& lens) {
   add("v", lens.view_angle_deg);
   if (lens.sigma_view_angle_deg > 0) add("sigma_v", lens.sigma_view_angle_deg);
   add("a", lens.aspect);
+  if (lens.sigma_aspect > 0) add("sigma_a", lens.sigma_aspect);
   add("shift_x", lens.shift_x);
   add("shift_y", lens.shift_y);
   if (lens.sigma_shift_x > 0) add("sigma_shift", lens.sigma_shift_x);
@@ -79,18 +83,36 @@ ViewTag FindLensTag(const CalibrationScene& scene,
   }
   const ImageSize size = ReadImageSize(photograph.file);
   const MetadataLens metadata = FindMetadataLens(ReadPhotographMetadata(photograph.file));
-  KnownKeys keys;
-  if (metadata.view_angle_deg) {
-    AddKnown(keys, "v", *metadata.view_angle_deg);
-    AddKnown(keys, "sigma_v", metadata.sigma_deg);
-  }
-  AddKnown(keys, "a", static_cast<double>(size.width) / size.height);
-  add(keys);
+  add(KeysOfMetadata(metadata, size));
+  KnownKeys square;
+  AddKnown(square, "a", static_cast<double>(size.width) / size.height);
+  add(square);
   if (!FindViewFaults(text, photograph.file).empty()) {
     throw Error(photograph.file,
                 "its view angle is not known; give --lens, a tag with v, or metadata");
   }
   return ParseView(text, photograph.file);
+}
+
+// The place that the photograph's own tag has, where it has one.
+std::optional<WrittenPlace> FindWrittenPlace(const CalibrationScene& scene,
+                                             const CalibrationPhotograph& photograph,
+                                             LengthUnit unit) {
+  const fs::path file = scene.scene_folder / "views" / (photograph.name + ".view");
+  if (scene.scene_folder.empty() || !fs::is_regular_file(file)) return std::nullopt;
+  const KnownKeys keys = ReadKnownKeys(file);
+  const auto number = [&](const char* name) -> std::optional<double> {
+    const auto at = std::find_if(
+        keys.begin(), keys.end(), [&](const KnownKey& key) { return key.key == name; });
+    return at == keys.end() ? std::nullopt : ParseNumber(at->value);
+  };
+  const auto x = number("x");
+  const auto y = number("y");
+  const auto z = number("z");
+  if (!x || !y || !z) return std::nullopt;
+  const PriorOptions usual = PriorSuitedTo(scene.model.value_or(PolygonModel()), {});
+  return WrittenPlace{{*x, *y, *z},
+                      number("sigma_position").value_or(*usual.position_m / MetresPerUnit(unit))};
 }
 
 KnownKeys KeysOfTags(const TagsResult& result) {
@@ -137,7 +159,8 @@ int RunCalibrateTags(const TagsArguments& arguments) {
       result = CalibrateTags(ReadGrey8(photograph.file),
                              survey,
                              FindLensTag(scene, photograph, lens),
-                             arguments.options);
+                             arguments.options,
+                             FindWrittenPlace(scene, photograph, unit));
       keys = KeysOfTags(result);
       if (!common.dry_run) WriteKnownKeys(scene, photograph.name, keys, "tags");
       for (SeenTagCorner& corner : result.corners) {

@@ -116,6 +116,81 @@ TEST_F(CalibrateTagsTest, TwoTagsTellTheStandpointWithinItsDeviations) {
   EXPECT_LT(squares / kTrials, 2.5);
 }
 
+// A tag 20 px large whose picture allows two standpoints, metres apart.
+TEST_F(CalibrateTagsTest, AWrittenPlaceTellsWhichOfTwoWaysASmallTagFaces) {
+  std::mt19937_64 random(6);
+  const std::vector<SurveyedTag> survey = {Survey(0.005)[0]};
+  int num_by_tag = 0;
+  int num_by_place = 0;
+  int num_by_blunder = 0;
+  constexpr int kTrials = 6;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    ViewTag truth = LensTag();
+    truth.position_in_site = {3 + 0.8 * trial, 10, 1.7};
+    truth.lookat_in_site = {3.3, 0, 1.75};
+    const Image8 picture = Photograph(truth, random);
+    const auto find = [&](const std::optional<WrittenPlace>& written) {
+      return CalibrateTags(picture, survey, LensTag(), {}, written);
+    };
+    const TagsResult by_tag = find(std::nullopt);
+    num_by_tag += by_tag.is_found;
+    if (!by_tag.is_found) {
+      EXPECT_THAT(by_tag.reason, HasSubstr("which of two ways it faces, and no place in views/"));
+    }
+    const Eigen::Vector3d written = truth.position_in_site + Eigen::Vector3d(0.1, -0.1, 0.05);
+    const TagsResult by_place = find(WrittenPlace{written, 0.1});
+    if (by_place.is_found) {
+      ++num_by_place;
+      const Eigen::Vector3d off = by_place.tag.position_in_site - truth.position_in_site;
+      EXPECT_LT(off.head<2>().cwiseAbs().maxCoeff(), 4 * *by_place.tag.sigmas.position) << trial;
+      EXPECT_LT(off.head<2>().norm(), 2.5) << trial;
+    }
+    // One that suits neither says nothing.
+    num_by_blunder += find(WrittenPlace{{-60, 300, 40}, 0.1}).is_found;
+  }
+  EXPECT_EQ(num_by_place, kTrials);
+  EXPECT_LT(num_by_tag, kTrials);
+  EXPECT_EQ(num_by_blunder, num_by_tag);
+}
+
+TEST_F(CalibrateTagsTest, SmallTagsAreMeasuredAndNotTheDetectorsAlone) {
+  std::mt19937_64 random(7);
+  double squares = 0;
+  int num_corners = 0;
+  for (int trial = 0; trial < 4; ++trial) {
+    ViewTag truth = LensTag();
+    truth.position_in_site = {2.5 + trial, 12, 1.7};
+    truth.lookat_in_site = {3.7, 0, 1.75};
+    const auto corners = CalibrateTags(Photograph(truth, random), Survey(0.005), LensTag()).corners;
+    const Camera camera = CameraFromTag(truth, kWidth, kHeight);
+    for (const SeenTagCorner& corner : corners) {
+      EXPECT_LT(corner.sigma_px, 0.4);
+      squares += (corner.image_px - *Project(camera, corner.surveyed_in_world)).squaredNorm() / 2;
+      ++num_corners;
+    }
+  }
+  EXPECT_GE(num_corners, 6 * 4);
+  // The detector's are off by 0.2 to 0.3.
+  EXPECT_LT(std::sqrt(squares / num_corners), 0.18);
+}
+
+// A scanner's pixels are not quite square, and the lens' number for it errs by its deviation.
+TEST_F(CalibrateTagsTest, AnAspectThatErrsByItsDeviationIsAllowedFor) {
+  std::mt19937_64 random(8);
+  ViewTag lens = LensTag();
+  lens.aspect *= 1.01;
+  lens.sigmas.aspect = 0.015;
+  for (int trial = 0; trial < 4; ++trial) {
+    const ViewTag truth = Standpoint(random);
+    const TagsResult found = CalibrateTags(Photograph(truth, random), Survey(0.005), lens);
+    ASSERT_TRUE(found.is_found) << found.reason;
+    const Eigen::Vector3d off = found.tag.position_in_site - truth.position_in_site;
+    EXPECT_LT(off.head<2>().cwiseAbs().maxCoeff(), 3 * *found.tag.sigmas.position);
+    EXPECT_LT(std::abs(off.z()), 3 * *found.tag.sigmas.height);
+    EXPECT_LT(std::abs(found.tag.aspect - LensTag().aspect), 2 * *lens.sigmas.aspect);
+  }
+}
+
 TEST_F(CalibrateTagsTest, APhotographWithoutSurveyedTagsSaysSo) {
   const Image8 grey(200, 100, 1, 120);
   EXPECT_EQ(CalibrateTags(grey, Survey(0.01), LensTag()).reason,
