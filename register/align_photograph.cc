@@ -79,6 +79,12 @@ WorkingPicture Reduced(const PhotographInput& photograph, const WorkingSize& siz
           ResizedMask(photograph.ignore, size.width_px, size.height_px)};
 }
 
+// The camera of a solution, as it is written.
+ViewTag TagOf(const TagReading& reading, const Solution& solution) {
+  return TagFromParameters(reading.prior.ParametersAt(solution.refinement.whitened),
+                           reading.prior.measured);
+}
+
 // What refining a photograph together with others needs of one of its cameras.
 AlignedPhotograph Align(const TagReading& reading,
                         const Solution& solution,
@@ -188,7 +194,10 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
 
   // Whether to believe it.
   Evidence support{best.score, {}, rival.distance_px / size.scale, !points.empty()};
-  if (rival.solution != nullptr) support.margin_nats = best.TotalScore() - rival.total_score;
+  if (rival.solution != nullptr) {
+    support.margin_nats = best.TotalScore() - rival.total_score;
+    support.second_best = TagOf(*rival.reading, *rival.solution);
+  }
   registration.verdict = Verdict::kAccepted;
   RecordEvidence(support, registration);
   const ParameterProjection projection = reading.prior.ProjectionAt(refined.whitened);
@@ -228,6 +237,8 @@ void FinishVerdict(const RegisterOptions& options, PhotographAlignment& alignmen
   }
   OverruleVerdict(options.overrule, registration);
   if (registration.verdict == Verdict::kRejected) registration.corrected = registration.measured;
+  // Whom the verdict settles has no rival.
+  if (registration.verdict != Verdict::kReview) registration.rival.reset();
 }
 
 }  // namespace groundglass

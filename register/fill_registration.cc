@@ -66,6 +66,7 @@ void FillRegistration(const JointSolution& solution,
 void RecordEvidence(const Evidence& evidence, Registration& registration) {
   registration.score_nats = evidence.score.nats;
   registration.margin_nats = evidence.margin_nats;
+  registration.rival = evidence.second_best;
 }
 
 }  // namespace groundglass

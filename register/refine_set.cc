@@ -305,6 +305,10 @@ void JudgeMember(size_t i,
   Evidence evidence = EvidenceFor(score, elsewhere, support, support_elsewhere, options);
   evidence.second_best_distance_px =
       elsewhere.distance_px * registration.width_px / photograph.prior.width_px;
+  if (elsewhere.camera) {
+    evidence.second_best = TagFromParameters(photograph.prior.ParametersAt(*elsewhere.camera),
+                                             photograph.prior.measured);
+  }
   CoverBoth(photograph, elsewhere, options.verdict, evidence, solution);
   FillRegistration(solution, photograph.prior, edge_model.model, points_in_world, registration);
   RecordEvidence(evidence, registration);

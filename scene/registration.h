@@ -89,6 +89,9 @@ struct Registration {
   std::vector<EdgeResidual> residuals;
   double score_nats = 0;              // above zero: better than chance
   std::optional<double> margin_nats;  // over the second-best camera; nothing if there is none
+  // Of a photograph in review: the second-best camera, which margin_nats is over; with the numbers
+  // that the fit does not move, and the standard deviations, of the tag that it started from.
+  std::optional<ViewTag> rival = {};
   // What other photographs say of the camera: patches of faces sought in them, and found where the
   // cameras expect them; nothing where the photograph was not refined together with others.
   struct Ties {

@@ -37,14 +37,6 @@ std::vector<ControlPoint> ControlPointsOf(const std::string& photograph, const P
   return points;
 }
 
-// The camera that a photograph in review may have in place of the one that was found.
-std::optional<ViewTag> RivalOf(const PhotographAlignment& alignment) {
-  if (!alignment.second_best) return std::nullopt;
-  const AlignedPhotograph& rival = *alignment.second_best;
-  return TagFromParameters(rival.prior.ParametersAt(rival.whitened),
-                           alignment.registration.measured);
-}
-
 }  // namespace
 
 AlignmentNews NewsOf(const Registration& registration) {
@@ -71,6 +63,7 @@ AlignmentNews NewsOf(const Registration& registration) {
   news.rms_px = registration.rms_px;
   news.margin_nats = registration.margin_nats;
   news.undetermined = registration.undetermined;
+  news.rival = registration.rival;
   return news;
 }
 
@@ -92,15 +85,11 @@ std::optional<AlignmentNews> AlignFromHere(const SessionPhotograph& photograph,
     PhotographAlignment alignment = AlignPhotograph(input, EdgeModel(model), options);
     FinishVerdict(options, alignment);
     if (stop) return std::nullopt;
-    AlignmentNews news = NewsOf(alignment.registration);
-    news.rival = RivalOf(alignment);
-    return news;
+    return NewsOf(alignment.registration);
   } catch (const AlignmentStopped&) {
     return std::nullopt;
   }
 }
-
-AlignmentJob::~AlignmentJob() { Stop(); }
 
 void AlignmentJob::Start(const SessionPhotograph& photograph,
                          const ViewTag& tag,

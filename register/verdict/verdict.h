@@ -69,6 +69,7 @@ struct Evidence {
   double tie_nats = 0;  // how much other photographs speak for it (TieSupport)
   // The solution elsewhere is as near as cameras must be known, and what is claimed covers both.
   bool claim_covers_both = false;
+  std::optional<ViewTag> second_best = {};  // the camera that margin_nats is over
 };
 // How much better than the second-best camera one must be, nats.
 double LeastMargin(const AlignmentScore& score, const VerdictOptions& options);

@@ -135,6 +135,7 @@ Json JsonFromRegistration(const Registration& registration) {
   json["residuals"] = JsonFromResiduals(registration.residuals);
   json["score_nats"] = registration.score_nats;
   json["margin_nats"] = JsonFromOptional(registration.margin_nats);
+  if (registration.rival) json["rival"] = JsonFromTag(*registration.rival);
   if (registration.ties) {
     json["ties"] = {{"tried", registration.ties->num_tried},
                     {"agreeing", registration.ties->num_agreeing},
@@ -143,6 +144,19 @@ Json JsonFromRegistration(const Registration& registration) {
   json["moved_px"] = registration.moved_px;
   json["vertex_sigma_px"] = registration.vertex_sigma_px;
   return json;
+}
+
+// Throws Error for a tag that describes no camera.
+void CheckTags(const Registration& registration) {
+  const auto check = [&](const ViewTag& tag) {
+    if (const std::optional<TagFault> fault = FindTagFault(tag)) {
+      throw Error("photograph '" + registration.name + "': key '" + fault->key +
+                  "': " + fault->message);
+    }
+  };
+  check(registration.measured);
+  check(registration.corrected);
+  if (registration.rival) check(*registration.rival);
 }
 
 Registration RegistrationFromJson(const Json& json) {
@@ -158,12 +172,11 @@ Registration RegistrationFromJson(const Json& json) {
   }
   registration.measured = TagFromJson(json.at("measured"));
   registration.corrected = TagFromJson(json.at("corrected"));
-  for (const ViewTag* tag : {&registration.measured, &registration.corrected}) {
-    if (const std::optional<TagFault> fault = FindTagFault(*tag)) {
-      throw Error("photograph '" + registration.name + "': key '" + fault->key +
-                  "': " + fault->message);
-    }
+  // Not there where there is none, and before version 0.2.
+  if (const auto rival = json.find("rival"); rival != json.end()) {
+    registration.rival = TagFromJson(*rival);
   }
+  CheckTags(registration);
   registration.sigmas = ParametersFromJson(json.at("sigmas"));
   registration.prior_sigmas = ParametersFromJson(json.at("prior_sigmas"));
   const Json& covariance = json.at("covariance");

@@ -4,6 +4,7 @@
 
 #include "scene/formats/image_io.h"
 #include "scene/formats/scene_folder.h"
+#include "tests/register/house.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -115,6 +116,27 @@ TEST_F(RefineSetTest, ThePhotographThatHadOnlyJoinedLeavesFirst) {
   EXPECT_EQ(Of("s1").registration.verdict, Verdict::kAccepted);
   EXPECT_EQ(Of("s12").registration.verdict, Verdict::kAccepted);
   EXPECT_EQ(Of("s3").registration.verdict, Verdict::kReview);
+}
+
+// By itself and in a set.
+TEST_F(RefineSetTest, APhotographInReviewNamesTheCameraThatItMayHaveInstead) {
+  for (const bool is_set : {false, true}) {
+    if (is_set) RefineSet(edge_model_, {}, alignments_);
+    Registration& registration = Of("s1").registration;
+    ASSERT_EQ(registration.verdict, Verdict::kAccepted);
+    ASSERT_TRUE(registration.margin_nats);
+    ASSERT_TRUE(registration.rival);
+    const Camera rival =
+        CameraFromTag(*registration.rival, registration.width_px, registration.height_px);
+    EXPECT_GT(VertexErrorPx(scene_.model, registration.CorrectedCamera(), rival), 2)
+        << "nobody could tell the two apart";
+  }
+  PutInReview("s1");
+  FinishVerdict({}, Of("s1"));
+  EXPECT_TRUE(Of("s1").registration.rival);
+  ASSERT_TRUE(Of("s3").registration.rival);
+  FinishVerdict({}, Of("s3"));
+  EXPECT_FALSE(Of("s3").registration.rival) << "it is accepted";
 }
 
 }  // namespace

@@ -119,6 +119,8 @@ TEST(RegistrationFile, RoundTripsToTheLastBit) {
   registration.residuals = {{{12.25, 7}, {-0.5, 0.03}}};
   registration.score_nats = 412.5;
   registration.margin_nats = 61;
+  registration.rival = S5();
+  registration.rival->lookat_in_site.z() -= 2.0 / 3;
   registration.moved_px = 16.8;
   registration.vertex_sigma_px = 0.7;
   const TemporaryFolder folder;
@@ -145,6 +147,7 @@ TEST(RegistrationFile, RoundTripsToTheLastBit) {
   EXPECT_EQ(again.residuals[0].offset_px, Eigen::Vector2d(-0.5, 0.03));
   EXPECT_EQ(again.score_nats, 412.5);
   EXPECT_EQ(again.margin_nats, 61);
+  EXPECT_EQ(again.rival, registration.rival);
   EXPECT_EQ(again.moved_px, 16.8);
   EXPECT_EQ(again.vertex_sigma_px, 0.7);
 }
@@ -160,8 +163,10 @@ TEST(RegistrationFile, WhatThereIsNotIsNoNumber) {
        {"\"rms_px\": null", "\"robust_sigma_px\": null", "\"margin_nats\": null"}) {
     EXPECT_NE(text.find(null), std::string::npos) << null;
   }
+  EXPECT_EQ(text.find("rival"), std::string::npos);
   const TemporaryFolder folder;
   const Registration again = ReadRegistrations(folder.Write("registration.json", text)).at(0);
+  EXPECT_FALSE(again.rival.has_value());
   EXPECT_FALSE(again.rms_px.has_value());
   EXPECT_FALSE(again.robust_sigma_px.has_value());
   EXPECT_FALSE(again.margin_nats.has_value());
@@ -180,6 +185,24 @@ TEST(RegistrationFile, WhatThereIsNotIsNoNumber) {
   EXPECT_FALSE(early.rms_px.has_value());
   EXPECT_EQ(early.robust_sigma_px, 0.3);
   EXPECT_FALSE(early.margin_nats.has_value());
+}
+
+TEST(RegistrationFile, ARivalThatIsNoCameraIsTold) {
+  Registration registration;
+  registration.name = "s5";
+  registration.width_px = registration.height_px = 100;
+  registration.measured = registration.corrected = S5();
+  registration.rival = S5();
+  registration.rival->view_angle_deg = 200;
+  const TemporaryFolder folder;
+  const auto file = folder.Write("registration.json", FormatRegistrations({registration}));
+  try {
+    ReadRegistrations(file);
+    FAIL() << "a view angle of 200 degrees was taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("photograph 's5': key 'v'"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(RegistrationFile, KeepsWhereTheModelIsOff) {
