@@ -153,6 +153,7 @@ void App::Update() {
   FlyByKeys(now);
   FollowFlight();
   TakeAlignment();
+  TakeFlood();
   UpdateMap();
   cache_.LetThumbnailsWait(governor_.IsMoving(now));
   for (auto& [photograph, thumbnail] : cache_.TakeThumbnails()) {
@@ -202,7 +203,7 @@ bool App::HasJobs() const {
   const bool is_map_due =
       map_ != LookMap::kNone && map_ != LookMap::kTiles1988 && shown_map_ == nullptr;
   return worker_.IsBusy() || is_map_due || is_playing_ || alignment_.IsRunning() ||
-         governor_.IsMoving(NowMs()) || (IsInside() && cache_.IsBusy());
+         flood_.IsRunning() || governor_.IsMoving(NowMs()) || (IsInside() && cache_.IsBusy());
 }
 
 void App::FinishFrame() {
@@ -266,6 +267,7 @@ std::string App::DescribeState() {
   if (CanMask()) {
     const auto& values = masks_.Paint(photograph_).ignore().values;
     json["masked"] = std::count(values.begin(), values.end(), 255);
+    json["brush_px"] = brush_px_;
     json["mask_unsaved"] = masks_.IsUnsaved(photograph_);
   }
   json["verdict"] = work.alignment ? VerdictName(work.alignment->verdict) : "";
@@ -285,6 +287,7 @@ void App::WriteFence() {
 }
 
 void App::Quit() {
+  FinishFlood();
   if (session_.HasUnsaved() || masks_.HasUnsaved()) {
     asks_to_quit_ = true;
   } else {

@@ -11,6 +11,7 @@
 #include "gui/sdl_window.h"
 #include "session/alignment.h"
 #include "session/bindings.h"
+#include "session/job.h"
 #include "session/keyframes.h"
 #include "session/mask_desk.h"
 #include "session/navigator.h"
@@ -136,6 +137,8 @@ class App {
   // app_maps.cc: what faces are coloured by.
   void ShowFaces(DrawMode mode);
   void ShowMap(LookMap map);
+  bool ColourFaces(Action action);
+  void DoBehindPhotograph(const KeyPress& press);
   void UpdateMap();
   void OpenTiles();
   std::string DescribeMapAt(const FacePick& pick) const;
@@ -199,6 +202,10 @@ class App {
   void ResizeBrush(double factor, bool is_eraser);
   bool DoInMask(Action action);
   void SaveMask(bool over_others);
+  void StartFlood(const std::shared_ptr<const Image8>& picture, const Eigen::Vector2d& from_px);
+  void TakeFlood();
+  void FinishFlood();
+  void ShowFlood(const Image8& flood);
   void DrawMaskTools();
   void DrawMaskPanel();
 
@@ -268,6 +275,7 @@ class App {
   LeftMasks left_masks_;
   bool says_yes_ = false;  // to the question that is asked, by key
   bool says_no_ = false;
+  bool says_drop_ = false;
   int frames_to_draw_ = 3;  // ImGui needs some after a change
   double text_scale_ = 1;
   double new_text_scale_ = 1;
@@ -358,6 +366,9 @@ class App {
   std::optional<int> depth_before_press_;
   Eigen::Vector2d painted_px_ = Eigen::Vector2d::Zero();  // of the photograph: where the brush was
   std::vector<Eigen::Vector2d> lasso_px_;
+  Job<Image8> flood_;
+  int flooded_photograph_ = -1;
+  bool flood_erases_ = false;
   std::shared_ptr<const Image8> mask_shown_;
   int mask_of_ = -1;
   int mask_version_ = 0;

@@ -2,9 +2,13 @@
 // Part of Groundglass.
 #include "gui/app.h"
 #include "gui/overlay_shapes.h"
+#include "session/mask_flood.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
 #include <utility>
 
 namespace groundglass {
@@ -56,7 +60,7 @@ void App::PressInMask(const Eigen::Vector2d& pane_px, int button, bool is_double
   if (is_double && picture) {
     // In place of the dab of the first click, if that changed anything.
     if (depth_before_click && mask->UndoDepth() > *depth_before_click) mask->Undo();
-    mask->Flood(*picture, at_px, !is_erasing_);
+    StartFlood(picture, at_px);
     return;
   }
   gesture_ = Gesture::kPaint;
@@ -101,6 +105,40 @@ void App::ResizeBrush(double factor, bool is_eraser) {
   radius_px = std::clamp(radius_px * factor, 1.0, 300.0);
 }
 
+// On a thread of its own, since a large scan takes longer than one should wait for.
+void App::StartFlood(const std::shared_ptr<const Image8>& picture, const Eigen::Vector2d& from_px) {
+  FinishFlood();
+  flooded_photograph_ = photograph_;
+  flood_erases_ = is_erasing_;
+  message_ = "filling up to the edges of the picture ...";
+  flood_.Start([picture, from_px] { return FindFlood(*picture, from_px); }, [this] { WakeUp(); });
+}
+
+void App::TakeFlood() {
+  // A stroke that is under way stays one step.
+  if (gesture_ == Gesture::kPaint) return;
+  if (const auto flood = flood_.Take()) ShowFlood(*flood);
+}
+
+// For what must know of it: saving, closing.
+void App::FinishFlood() {
+  if (const auto flood = flood_.Wait()) ShowFlood(*flood);
+}
+
+void App::ShowFlood(const Image8& flood) {
+  needs_frame_ = true;
+  const auto filled = std::count(flood.values.begin(), flood.values.end(), 255);
+  masks_.Paint(flooded_photograph_).Fill(flood, !flood_erases_);
+  char text[96];
+  std::snprintf(text,
+                sizeof text,
+                "%s %.1f %% of the photograph \u00B7 Ctrl+Z takes it back",
+                flood_erases_ ? "erased" : "filled",
+                100.0 * static_cast<double>(filled) /
+                    static_cast<double>(std::max<size_t>(1, flood.values.size())));
+  message_ = text;
+}
+
 // Undo, redo and saving in this mode are the mask's; others stay as they are.
 bool App::DoInMask(Action action) {
   constexpr double kStep = 1.25;
@@ -111,6 +149,11 @@ bool App::DoInMask(Action action) {
   }
   switch (action) {
     case Action::kUndo:
+      if (flood_.IsRunning() && flooded_photograph_ == photograph_) {
+        flood_.Drop();
+        message_ = "nothing is filled";
+        return true;
+      }
       if (!mask->Undo()) message_ = "nothing to undo in this mask";
       return true;
     case Action::kRedo:
@@ -137,6 +180,7 @@ bool App::DoInMask(Action action) {
 }
 
 void App::SaveMask(bool over_others) {
+  FinishFlood();
   const SaveResult result = masks_.Save(photograph_, over_others);
   message_ = result.message;
   asks_to_overwrite_mask_ = result.kind == SaveResult::Kind::kChangedOnDisk;
@@ -179,7 +223,8 @@ void App::DrawMaskPanel() {
   };
   size("brush", brush_px_);
   size("eraser", eraser_px_);
-  ImGui::Text("%.1f %% of the photograph, %d steps", 100 * mask_share_, mask->UndoDepth());
+  ImGui::TextWrapped("[ and ] change the brush, with Shift the eraser.");
+  ImGui::Text("%.1f %% of the photograph is masked", 100 * mask_share_);
   if (ImGui::Button("Ctrl+S save the mask")) SaveMask(false);
 }
 

@@ -6,7 +6,7 @@
 #include "scene/formats/ignore_mask.h"
 
 #include <algorithm>
-#include <chrono>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -98,32 +98,18 @@ void AlignmentJob::Start(const SessionPhotograph& photograph,
                          const std::function<void()>& on_done) {
   Stop();
   stop_ = std::make_shared<std::atomic<bool>>(false);
-  running_ = std::async(std::launch::async,
-                        [photograph, tag, pins, model, on_done, stop = stop_]() mutable {
-                          struct Tell {
-                            const std::function<void()>& tell;
-                            ~Tell() {
-                              if (tell) tell();
-                            }
-                          } const when_done{on_done};
-                          return AlignFromHere(photograph, tag, pins, model, *stop);
-                        });
+  job_.Start(
+      [photograph, tag, pins, model, stop = stop_] {
+        return AlignFromHere(photograph, tag, pins, model, *stop);
+      },
+      on_done);
 }
 
 void AlignmentJob::Stop() {
-  std::erase_if(stopped_, [](const auto& job) {
-    return job.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  });
-  if (!running_.valid()) return;
-  *stop_ = true;
-  stopped_.push_back(std::move(running_));
+  if (stop_) *stop_ = true;
+  job_.Drop();
 }
 
-std::optional<AlignmentNews> AlignmentJob::Take() {
-  const bool is_there =
-      running_.valid() && running_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  if (!is_there) return std::nullopt;
-  return running_.get();
-}
+std::optional<AlignmentNews> AlignmentJob::Take() { return job_.Take().value_or(std::nullopt); }
 
 }  // namespace groundglass

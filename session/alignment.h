@@ -3,15 +3,13 @@
 #pragma once
 
 #include "scene/polygon_model.h"
+#include "session/job.h"
 #include "session/session.h"
 
 #include <atomic>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace groundglass {
 
@@ -32,7 +30,7 @@ AlignmentNews NewsOf(const Registration& registration);
 class AlignmentJob {
  public:
   AlignmentJob() = default;
-  ~AlignmentJob();
+  ~AlignmentJob() { Stop(); }
   AlignmentJob(const AlignmentJob&) = delete;
   AlignmentJob& operator=(const AlignmentJob&) = delete;
 
@@ -44,14 +42,13 @@ class AlignmentJob {
              const std::function<void()>& on_done);
   // Returns at once: from here on nothing runs as far as anybody sees, and nothing will come of it.
   void Stop();
-  bool IsRunning() const { return running_.valid(); }
+  bool IsRunning() const { return job_.IsRunning(); }
   // The news once they are there. Throws what the alignment threw.
   std::optional<AlignmentNews> Take();
 
  private:
   std::shared_ptr<std::atomic<bool>> stop_;
-  std::future<std::optional<AlignmentNews>> running_;
-  std::vector<std::future<std::optional<AlignmentNews>>> stopped_;  // until their threads end
+  Job<std::optional<AlignmentNews>> job_;
 };
 
 }  // namespace groundglass

@@ -6,11 +6,9 @@
 #include "scene/error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 
 namespace groundglass {
@@ -30,29 +28,9 @@ double DistanceFromStroke(const Eigen::Vector2d& from,
   return (from + share * along - at).norm();
 }
 
-// A picture's colour, evened out over 3 x 3 pixels.
-std::array<int, 3> EvenColour(const Image8& srgb8, int x, int y) {
-  std::array<int, 3> sum = {0, 0, 0};
-  for (int by_y = -1; by_y <= 1; ++by_y) {
-    for (int by_x = -1; by_x <= 1; ++by_x) {
-      const uint8_t* pixel = srgb8.At(std::clamp(x + by_x, 0, srgb8.width - 1),
-                                      std::clamp(y + by_y, 0, srgb8.height - 1));
-      for (int c = 0; c < 3; ++c) sum[c] += pixel[c];
-    }
-  }
-  for (int& channel : sum) channel = (channel + 4) / 9;
-  return sum;
-}
-
-int ColourDistance(const std::array<int, 3>& a, const std::array<int, 3>& b) {
-  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
-}
-
 }  // namespace
 
 void MaskPaintOptions::Check() const {
-  CheckFromTo(flood_step, 0, 255, "mask paint options: flood_step");
-  CheckFromTo(flood_range, 0, 255, "mask paint options: flood_range");
   CheckAtLeast(static_cast<double>(max_history_bytes), 1, "mask paint options: max_history_bytes");
 }
 
@@ -131,42 +109,15 @@ void MaskPaint::Lasso(const std::vector<Eigen::Vector2d>& corners_px, bool is_ig
   EndStroke();
 }
 
-void MaskPaint::Flood(const Image8& srgb8, const Eigen::Vector2d& from_px, bool is_ignored) {
-  const int start_x = static_cast<int>(std::floor(from_px.x()));
-  const int start_y = static_cast<int>(std::floor(from_px.y()));
-  const bool fits = srgb8.width == ignore_.width && srgb8.height == ignore_.height;
-  const bool is_inside =
-      start_x >= 0 && start_y >= 0 && start_x < ignore_.width && start_y < ignore_.height;
-  if (!fits || !is_inside) return;
+void MaskPaint::Fill(const Image8& where, bool is_ignored) {
+  if (where.width != ignore_.width || where.height != ignore_.height) return;
   BeginStroke();
-  const std::array<int, 3> start_colour = EvenColour(srgb8, start_x, start_y);
-  Raster<char> is_reached(ignore_.width, ignore_.height, 1);
-  struct Reached {
-    int x;
-    int y;
-    std::array<int, 3> colour;
-  };
-  std::vector<Reached> front = {{start_x, start_y, start_colour}};
-  *is_reached.At(start_x, start_y) = 1;
-  while (!front.empty()) {
-    const Reached at = front.back();
-    front.pop_back();
-    *ignore_.At(at.x, at.y) = CodeOf(is_ignored);
-    constexpr std::array<std::array<int, 2>, 4> kNext = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-    for (const auto& [by_x, by_y] : kNext) {
-      const int x = at.x + by_x;
-      const int y = at.y + by_y;
-      if (x < 0 || y < 0 || x >= ignore_.width || y >= ignore_.height) continue;
-      if (*is_reached.At(x, y)) continue;
-      const std::array<int, 3> colour = EvenColour(srgb8, x, y);
-      if (ColourDistance(colour, at.colour) > options_.flood_step ||
-          ColourDistance(colour, start_colour) > options_.flood_range) {
-        continue;
-      }
-      *is_reached.At(x, y) = 1;
-      front.push_back({x, y, colour});
-    }
-  }
+  const uint8_t code = CodeOf(is_ignored);
+  std::transform(where.values.begin(),
+                 where.values.end(),
+                 ignore_.values.begin(),
+                 ignore_.values.begin(),
+                 [code](uint8_t is_there, uint8_t before) { return is_there ? code : before; });
   ++version_;
   EndStroke();
 }

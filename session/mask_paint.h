@@ -16,11 +16,6 @@
 namespace groundglass {
 
 struct MaskPaintOptions {
-  // Flooding goes from pixel to pixel as long as no channel of the picture, evened out over 3 x 3
-  // pixels, changes by more than the first from one to the next, or by more than the second from
-  // where it began; sRGB codes. Larger leaks over weak edges.
-  int flood_step = 6;
-  int flood_range = 48;
   // What undo may hold; the oldest strokes go first.
   size_t max_history_bytes = size_t{64} << 20;
 
@@ -49,8 +44,8 @@ class MaskPaint {
   void EndStroke();
   // The inside of a closed line, by the even-odd rule; one step.
   void Lasso(const std::vector<Eigen::Vector2d>& corners_px, bool is_ignored);
-  // From a place up to the edges of the picture (of the mask's size); one step.
-  void Flood(const Image8& srgb8, const Eigen::Vector2d& from_px, bool is_ignored);
+  // Where a picture of the mask's size is not 0 (FindFlood); one step.
+  void Fill(const Image8& where, bool is_ignored);
 
   // Steps that all fit, one after the other; one step.
   void Put(const std::vector<MaskStep>& steps);

@@ -78,7 +78,7 @@ endforeach()
 set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI
     fmt kainjow nlohmann openssl tbb stb sys SDL2 imgui GeographicLib polyclipping)
 set(owners_Eigen "\\.(h|cc)$")
-set(owners_opencv2 "^(scene|calibrate|register|invrender|viewer|gui|report|datasets-synthetic|evaluate)/.*\\.cc$")
+set(owners_opencv2 "^(scene|calibrate|register|session|invrender|viewer|gui|report|datasets-synthetic|evaluate)/.*\\.cc$")
 set(owners_OpenImageIO "^(scene/formats/(image_(io|write|kind)|open_image|ignore_mask|photograph_metadata)|invrender/.*)\\.cc$")
 set(owners_embree3 "^scene/visibility\\.cc$")
 set(owners_ceres "^(calibrate|register|session|invrender)/.*\\.cc$")

@@ -83,20 +83,18 @@ TEST(MaskPaint, ALassoFillsItsInsideByTheEvenOddRule) {
   EXPECT_EQ(CountIgnored(paint), 60 * 40) << "what lies outside is left out";
 }
 
-TEST(MaskPaint, FloodStopsAtEdgesOfThePicture) {
-  Image8 picture(60, 40, 3, 90);
-  for (int y = 10; y < 30; ++y) {
-    // A patch whose brightness rises slowly, with a sharp border.
-    for (int x = 20; x < 50; ++x) std::fill_n(picture.At(x, y), 3, static_cast<uint8_t>(150 + x));
-  }
+TEST(MaskPaint, WhatIsFilledIsOneStep) {
   MaskPaint paint({60, 40}, {});
-  paint.Flood(picture, {35, 20}, true);
-  // The border itself is evened out, and left alone: a pixel all around.
-  EXPECT_EQ(CountIgnored(paint), 28 * 18);
-  EXPECT_EQ(*paint.ignore().At(21, 11), 255);
-  EXPECT_EQ(*paint.ignore().At(10, 5), 0);
-  paint.Flood(picture, {-5, 3}, true);
+  Image8 where(60, 40, 1);
+  *where.At(7, 8) = 255;
+  *where.At(9, 8) = 1;
+  paint.Fill(where, true);
+  EXPECT_EQ(CountIgnored(paint), 2);
   EXPECT_EQ(paint.UndoDepth(), 1);
+  paint.Fill(where, false);
+  EXPECT_TRUE(paint.IsEmpty());
+  paint.Fill({}, true);
+  EXPECT_EQ(paint.UndoDepth(), 2) << "nothing is filled by a place outside of the picture";
 }
 
 class MasksOfAScene : public testing::Test {
@@ -183,9 +181,7 @@ TEST_F(MasksOfAScene, WhatCannotBeWrittenIsToldAndKept) {
 
 TEST(MaskPaintOptions, AreChecked) {
   ExpectCheckNamesEach<MaskPaintOptions>(
-      {{"flood_step", [](MaskPaintOptions& o) { o.flood_step = -1; }},
-       {"flood_range", [](MaskPaintOptions& o) { o.flood_range = 256; }},
-       {"max_history_bytes", [](MaskPaintOptions& o) { o.max_history_bytes = 0; }}});
+      {{"max_history_bytes", [](MaskPaintOptions& o) { o.max_history_bytes = 0; }}});
 }
 
 }  // namespace
