@@ -64,7 +64,9 @@ void App::AddKeyframe() {
     keyframes->Add(eye_.InFrame(1280, 720), std::max(distance, 1e-3));
     shows_flight_ = true;
     FindFlight();
-    message_ = "keyframe " + std::to_string(keyframes->cameras().size()) +
+    const size_t count = keyframes->cameras().size();
+    message_ = "keyframe " + std::to_string(count) +
+               (count < 2 ? ": a second one makes a flight" : ": Shift+K flies") +
                "; a film of them: groundglass render " + ShellWord(FilmedFile()) + " --path " +
                ShellWord(keyframes->folder()) + " -o flight.mp4";
   } catch (const std::exception& error) {

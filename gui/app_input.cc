@@ -58,12 +58,17 @@ void App::HandleKey(const SDL_KeyboardEvent& key) {
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) {
     says_yes_ = press.key == "Return";
     says_no_ = press.key == "Escape";
+    says_drop_ = press.key == "Delete";
     return;
   }
   // What flies now means nothing else: E is up, and not the ellipsoids.
   if (!press.ctrl && !press.alt && FlyWayByKeys(press.place) != FlyWay()) return;
   const std::vector<BindingPlace> places = Places();
-  if (const Binding* binding = FindBinding(press, places)) Do(binding->action, press);
+  if (const Binding* binding = FindBinding(press, places)) {
+    Do(binding->action, press);
+  } else if (IsInside() && mode_ == WindowMode::kLook) {
+    DoBehindPhotograph(press);
+  }
 }
 
 void App::Do(Action action, const KeyPress& press) {
@@ -202,37 +207,11 @@ void App::TurnByArrow(const std::string& key) {
 }
 
 bool App::DoInLook(Action action, const KeyPress& press) {
+  if (ColourFaces(action)) return true;
   const Eigen::Vector2d middle(pane_.width / 2.0, pane_.height / 2.0);
   const auto keep_eye = [&] { eyes_before_.push_back(eye_); };
   const double aspect = static_cast<double>(pane_.width) / pane_.height;
   switch (action) {
-    case Action::kWire:
-      ShowFaces(DrawMode::kWireframe);
-      return true;
-    case Action::kShaded:
-      ShowFaces(DrawMode::kShaded);
-      return true;
-    case Action::kTextured:
-      ShowFaces(DrawMode::kTextured);
-      return true;
-    case Action::kNumbers:
-      ShowFaces(DrawMode::kLabels);
-      return true;
-    case Action::kCoverage:
-      ShowMap(LookMap::kCoverage);
-      return true;
-    case Action::kProvenance:
-      ShowMap(LookMap::kProvenance);
-      return true;
-    case Action::kTexelSize:
-      ShowMap(LookMap::kTexelSize);
-      return true;
-    case Action::kUncertainty:
-      ShowMap(LookMap::kUncertainty);
-      return true;
-    case Action::kTiles1988:
-      ShowMap(LookMap::kTiles1988);
-      return true;
     case Action::kKeyframe:
       AddKeyframe();
       return true;

@@ -4,7 +4,9 @@
 #include "scene/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <string>
 
 namespace groundglass {
 namespace {
@@ -111,6 +113,53 @@ std::string App::DescribeMapAt(const FacePick& pick) const {
   return "here: shown by " + std::to_string(cell.num_photographs) + ", finest by " +
          survey_.photographs[*cell.finest].name + ", whose pixel is " +
          LengthText(cell.pixel_size, unit) + "; \u00B1 " + LengthText(cell.sigma, unit);
+}
+
+bool App::ColourFaces(Action action) {
+  switch (action) {
+    case Action::kWire:
+      ShowFaces(DrawMode::kWireframe);
+      return true;
+    case Action::kShaded:
+      ShowFaces(DrawMode::kShaded);
+      return true;
+    case Action::kTextured:
+      ShowFaces(DrawMode::kTextured);
+      return true;
+    case Action::kNumbers:
+      ShowFaces(DrawMode::kLabels);
+      return true;
+    case Action::kCoverage:
+      ShowMap(LookMap::kCoverage);
+      return true;
+    case Action::kProvenance:
+      ShowMap(LookMap::kProvenance);
+      return true;
+    case Action::kTexelSize:
+      ShowMap(LookMap::kTexelSize);
+      return true;
+    case Action::kUncertainty:
+      ShowMap(LookMap::kUncertainty);
+      return true;
+    case Action::kTiles1988:
+      ShowMap(LookMap::kTiles1988);
+      return true;
+    default:
+      return false;
+  }
+}
+
+// Keys of Look, pressed inside a photograph: the model that is faded into it is coloured by them,
+// too; others are told.
+void App::DoBehindPhotograph(const KeyPress& press) {
+  constexpr std::array<BindingPlace, 1> kThere = {BindingPlace::kLook};
+  const Binding* binding = FindBinding(press, kThere);
+  if (binding == nullptr) return;
+  if (!ColourFaces(binding->action)) {
+    message_ = std::string(binding->keys) + " is for the model alone: Esc leaves the photograph";
+  } else if (model_share_ == 0 && !wipes_) {
+    message_ = "the model is behind the photograph: . fades it in";
+  }
 }
 
 }  // namespace groundglass

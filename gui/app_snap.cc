@@ -3,6 +3,8 @@
 #include "gui/app.h"
 #include "session/snap.h"
 
+#include <string>
+
 namespace groundglass {
 
 void App::SnapPin() {
@@ -39,12 +41,17 @@ void App::SnapPin() {
 
 void App::ShowRival() {
   const auto& news = session_.work(photograph_).alignment;
-  if (!news || !news->rival) {
-    message_ = shows_rival_ ? "" : "no rival is known: A aligns, and tells it of one in review";
-    shows_rival_ = false;
+  if (news && news->rival) {
+    shows_rival_ = !shows_rival_;
+    message_.clear();
     return;
   }
-  shows_rival_ = !shows_rival_;
+  shows_rival_ = false;
+  message_ = !news ? "no rival is known: A aligns, and tells it of a camera in review"
+             : news->verdict == Verdict::kReview
+                 ? "no rival was found: what is in doubt is written at the right"
+                 : "only a camera in review has a rival: this one is " +
+                       std::string(VerdictName(news->verdict));
 }
 
 }  // namespace groundglass

@@ -300,7 +300,7 @@ void App::Align() {
   aligned_work_ = work;
   alignment_.Start(
       session_.photographs()[photograph_], tag, work.pins, session_.model(), [this] { WakeUp(); });
-  message_ = "aligning " + session_.photographs()[photograph_].name + " ...";
+  message_.clear();
 }
 
 void App::StopAlignment() {

@@ -13,7 +13,7 @@ constexpr int kMostCrops = 6;
 
 void DrawMeasure(const char* what, const Measure& measure, const std::string& unit) {
   ImGui::TextWrapped("%s %.3f \u00B1 %.3f %s", what, measure.value, measure.sigma, unit.c_str());
-  ImGui::TextWrapped("   camera %.3f, pointing %.3f, model %.3f",
+  ImGui::TextWrapped("   camera %.3f, pointing %.3f,\n   model %.3f",
                      measure.camera_sigma,
                      measure.pixel_sigma,
                      measure.model_sigma);
@@ -67,7 +67,7 @@ void App::DrawAskPanel() {
         ImGui::SameLine();
       }
     }
-    ImGui::Text("%s\n%.1f, %.1f px\n\u00B1 %.2f px\n%.0f\u00B0, %.3f %s a px",
+    ImGui::Text("%s\n%.1f, %.1f px\n\u00B1 %.2f px\nseen at %.0f\u00B0\n%.3f %s a px",
                 photograph.name.c_str(),
                 sighting.image_px->x(),
                 sighting.image_px->y(),

@@ -36,7 +36,7 @@ void App::DrawOverlayLines() {
   if (CanTag()) DrawPins();
   if (CanTag()) DrawLoupe();
   if (CanMask()) DrawMaskTools();
-  DrawPlaces();
+  if (!CanTag() && !CanMask()) DrawPlaces();
   list.PopClipRect();
 }
 
@@ -87,7 +87,12 @@ void App::DrawStations() {
       }
     }
     if (is_brief && i != photograph_) continue;
-    OverlayText(ImVec2(from.x + 5, from.y + 3), colour, session_.photographs()[i].name);
+    // Beside the picture, which would hide it.
+    ImVec2 right = from;
+    for (const ImVec2& corner : corners) {
+      if (is_seen && corner.x > right.x) right = corner;
+    }
+    OverlayText(ImVec2(right.x + 5, right.y - 8), colour, session_.photographs()[i].name);
   }
 }
 

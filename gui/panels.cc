@@ -4,7 +4,10 @@
 
 #include <imgui/imgui.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <string>
 
 namespace groundglass {
 namespace {
@@ -20,9 +23,22 @@ void BeginPanel(const char* name, int x, int y, int width, int height, int flags
   ImGui::Begin(name, nullptr, kPanel | flags);
 }
 
+std::string SignOf(Verdict verdict) {
+  return verdict == Verdict::kAccepted ? "\u2713 "
+         : verdict == Verdict::kReview ? "\u25B2 "
+                                       : "\u2717 ";
+}
+
+std::string LowerCase(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 }  // namespace
 
 void App::DrawPanels() {
+  // Before the others, since of panels the first lies on top: its lines may reach over them.
+  DrawStatus();
   DrawTopBar();
   if (pane_.x > 0) {
     BeginPanel("photographs", 0, pane_.y, pane_.x, plan_.y - pane_.y);
@@ -36,7 +52,6 @@ void App::DrawPanels() {
     DrawContext();
     ImGui::End();
   }
-  DrawStatus();
   DrawHelp();
   DrawQuestions();
 }
@@ -78,19 +93,22 @@ void App::DrawPhotographs() {
     const SessionPhotograph& photograph = session_.photographs()[i];
     const auto registration = document_.registrations.find(photograph.name);
     const PhotographWork& work = session_.work(i);
-    std::string line = work.tag ? "\u2713 " : "\u25CB ";
-    std::string state = work.tag ? "" : "no tag";
+    // Placed by hand and not yet aligned: no tag that is taken.
+    const bool is_rough = work.tag && !work.alignment && session_.IsUnsaved(i);
+    std::string line = work.tag && !is_rough ? "\u2713 " : "\u25CB ";
+    std::string state = !work.tag ? "no tag" : is_rough ? "placed" : "";
     if (registration != document_.registrations.end()) {
       const Verdict verdict = registration->second.verdict;
-      line = verdict == Verdict::kAccepted ? "\u2713 "
-             : verdict == Verdict::kReview ? "\u25B2 "
-                                           : "\u2717 ";
+      line = SignOf(verdict);
       state = VerdictName(verdict);
       const bool is_other_tag =
           HasCorrection(verdict) && session_.UndoDepth(i) == 0 && !session_.HasFound(i);
       if (is_other_tag) state += ", tag changed since";
     }
-    if (work.alignment) state = VerdictName(work.alignment->verdict);
+    if (work.alignment) {
+      line = SignOf(work.alignment->verdict);
+      state = VerdictName(work.alignment->verdict);
+    }
     if (session_.IsAsFound(i)) state += " (run)";
     const std::string fault = !photograph.fault.empty() ? photograph.fault : cache_.FaultOf(i);
     if (!fault.empty()) {
@@ -99,14 +117,17 @@ void App::DrawPhotographs() {
     }
     line += photograph.name + "  " + state +
             (session_.IsUnsaved(i) || masks_.IsUnsaved(i) ? " \u25CF" : "");
+    const float shown = ImGui::GetTextLineHeightWithSpacing() * 1.6f;
     if (const auto thumbnail = thumbnails_.find(i); thumbnail != thumbnails_.end()) {
       int width = 0;
       int height = 0;
       SDL_QueryTexture(thumbnail->second.get(), nullptr, nullptr, &width, &height);
-      const float shown = ImGui::GetTextLineHeightWithSpacing() * 1.6f;
       ImGui::Image(thumbnail->second.get(), ImVec2(shown * width / height, shown));
-      ImGui::SameLine();
+    } else {
+      // Its place, so that nothing jumps when it comes.
+      ImGui::Dummy(ImVec2(1.5f * shown, shown));
     }
+    ImGui::SameLine();
     if (ImGui::Selectable(line.c_str(), i == photograph_, ImGuiSelectableFlags_AllowDoubleClick)) {
       Choose(i, IsInside() || mode_ == WindowMode::kTag || ImGui::IsMouseDoubleClicked(0));
     }
@@ -176,22 +197,32 @@ void App::DrawLookPanel() {
       ImGui::TextWrapped("%s", here.c_str());
     }
   } else {
-    ImGui::TextWrapped("Click a face for its name and area.");
+    ImGui::TextWrapped("%s",
+                       IsInside() ? "Esc leaves the photograph; then a click on a face tells its "
+                                    "name and area. F4 asks here."
+                                  : "Click a face for its name and area.");
   }
 }
 
 void App::DrawStatus() {
-  const int height = window_.height_px() - pane_.y - pane_.height;
+  constexpr int kMarginPx = 8;
+  const float width = static_cast<float>(window_.width_px() - 2 * kMarginPx);
+  const std::string line =
+      message_.empty() ? StatusLine() : message_ + "   \u00B7   " + StatusLine();
+  // What is too long for one line takes more of them, over the picture.
+  const float text_height = ImGui::CalcTextSize(line.c_str(), nullptr, false, width).y;
+  const int height =
+      std::max(window_.height_px() - pane_.y - pane_.height, static_cast<int>(text_height) + 12);
   BeginPanel("status",
              0,
-             pane_.y + pane_.height,
+             window_.height_px() - height,
              window_.width_px(),
              height,
              ImGuiWindowFlags_NoScrollbar);
   ImGui::SetCursorPosY(5);
-  const std::string line =
-      message_.empty() ? StatusLine() : message_ + "   \u00B7   " + StatusLine();
+  ImGui::PushTextWrapPos(width);
   ImGui::TextUnformatted(line.c_str());
+  ImGui::PopTextWrapPos();
   ImGui::End();
 }
 
@@ -229,7 +260,7 @@ void App::DrawHelp() {
   static std::array<char, 64> filter = {};
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::InputText("search", filter.data(), filter.size());
-  const std::string sought = filter.data();
+  const std::string sought = LowerCase(filter.data());
   if (ImGui::BeginTable("keys", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) {
     ImGui::TableSetupColumn("where", ImGuiTableColumnFlags_WidthStretch, 0.2f);
     ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.3f);
@@ -237,8 +268,7 @@ void App::DrawHelp() {
     for (const Binding& binding : Bindings()) {
       const std::string keys(binding.keys);
       const std::string does(binding.does);
-      if (does.find(sought) == std::string::npos && keys.find(sought) == std::string::npos)
-        continue;
+      if (LowerCase(does + " " + keys).find(sought) == std::string::npos) continue;
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(std::string(BindingPlaceName(binding.place)).c_str());

@@ -49,8 +49,16 @@ void App::FindLeftWork() {
 
 void App::DrawQuestions() {
   Ask("Unsaved work", asks_to_quit_, [&] {
-    ImGui::Text("Some photographs are not saved.");
-    if (ImGui::Button("Save all") || says_yes_) {
+    std::vector<std::string> unsaved;
+    for (int i = 0; i < static_cast<int>(session_.photographs().size()); ++i) {
+      if (session_.IsUnsaved(i) || masks_.IsUnsaved(i)) {
+        unsaved.push_back(session_.photographs()[i].name);
+      }
+    }
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 28);
+    ImGui::TextWrapped("Not saved yet: %s.", Listed(unsaved, ", ").c_str());
+    ImGui::PopTextWrapPos();
+    if (ImGui::Button("Enter  save all") || says_yes_) {
       bool is_saved = true;
       for (int i = 0; i < static_cast<int>(session_.photographs().size()); ++i) {
         const auto note = [&](const SaveResult& result) {
@@ -64,41 +72,41 @@ void App::DrawQuestions() {
       is_open_ = !is_saved;
     }
     ImGui::SameLine();
-    if (ImGui::Button("Discard")) {
+    if (ImGui::Button("Delete  discard") || says_drop_) {
       session_.ForgetJournal();
       is_open_ = false;
     }
     ImGui::SameLine();
-    if (ImGui::Button("Cancel") || says_no_) asks_to_quit_ = false;
+    if (ImGui::Button("Esc  cancel") || says_no_) asks_to_quit_ = false;
   });
   Ask("Changed on disk", asks_to_overwrite_, [&] {
     ImGui::Text("Somebody else has changed these files since they were read.");
-    if (ImGui::Button("Keep mine") || says_yes_) {
+    if (ImGui::Button("Enter  keep mine") || says_yes_) {
       message_ = session_.Save(photograph_, true).message;
       asks_to_overwrite_ = false;
     }
     ImGui::SameLine();
-    if (ImGui::Button("Cancel") || says_no_) asks_to_overwrite_ = false;
+    if (ImGui::Button("Esc  cancel") || says_no_) asks_to_overwrite_ = false;
   });
   Ask("Mask changed on disk", asks_to_overwrite_mask_, [&] {
     ImGui::Text("Somebody else has changed this mask since it was read.");
-    if (ImGui::Button("Keep mine") || says_yes_) {
+    if (ImGui::Button("Enter  keep mine") || says_yes_) {
       asks_to_overwrite_mask_ = false;
       SaveMask(true);
     }
     ImGui::SameLine();
-    if (ImGui::Button("Cancel") || says_no_) asks_to_overwrite_mask_ = false;
+    if (ImGui::Button("Esc  cancel") || says_no_) asks_to_overwrite_mask_ = false;
   });
   Ask("Unsaved work of an earlier session", offers_left_work_, [&] {
     ImGui::Text("There is unsaved work of %s.", session_.LeftWorkIsOf().c_str());
     ImGui::TextUnformatted(left_work_of_.c_str());
-    if (ImGui::Button("Take it") || says_yes_) {
+    if (ImGui::Button("Enter  take it") || says_yes_) {
       session_.TakeLeftWork();
       masks_.TakeLeftWork(left_masks_);
       offers_left_work_ = false;
     }
     ImGui::SameLine();
-    if (ImGui::Button("Drop it") || says_no_) {
+    if (ImGui::Button("Delete  drop it") || says_drop_) {
       session_.DropLeftWork();
       masks_.DropLeftWork();
       offers_left_work_ = false;
@@ -106,19 +114,20 @@ void App::DrawQuestions() {
   });
   Ask("Against the verdict", asks_reason_, [&] {
     static std::array<char, 200> reason = {};
-    ImGui::Text("Why is it right all the same?");
+    ImGui::Text("Why is it right all the same? The view file keeps the reason.");
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    ImGui::InputText("reason", reason.data(), reason.size());
-    if ((ImGui::Button("Take it") || says_yes_) && reason[0] != 0) {
+    const bool is_entered = ImGui::InputText(
+        "reason", reason.data(), reason.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    if ((is_entered || ImGui::Button("Enter  take it") || says_yes_) && reason[0] != 0) {
       reason_ = reason.data();
       reason = {};
       asks_reason_ = false;
       Accept(true);
     }
     ImGui::SameLine();
-    if (ImGui::Button("Cancel") || says_no_) asks_reason_ = false;
+    if (ImGui::Button("Esc  cancel") || says_no_) asks_reason_ = false;
   });
-  says_yes_ = says_no_ = false;
+  says_yes_ = says_no_ = says_drop_ = false;
 }
 
 }  // namespace groundglass

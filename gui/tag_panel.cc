@@ -5,7 +5,9 @@
 #include <imgui/imgui.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
+#include <string>
 
 namespace groundglass {
 namespace {
@@ -29,15 +31,26 @@ const char* UseName(PinUse use) {
 
 void DrawFreeNumbers(const PinSolution& solution) {
   const CameraParameters site = SiteParameters(solution.parameters);
+  if (!ImGui::BeginTable("numbers", 4, ImGuiTableFlags_SizingFixedFit)) return;
   for (int i = 0; i < kNumCameraParameters; ++i) {
     const bool is_free = solution.is_free[i];
-    ImGui::TextColored(is_free ? ImVec4(0.93f, 0.93f, 0.93f, 1) : ImVec4(0.6f, 0.6f, 0.62f, 1),
-                       "%-8s %9.3f \u00B1 %.3f  %s",
-                       std::string(kCameraParameterNames[i]).c_str(),
-                       site[i],
-                       solution.sigmas[i],
-                       is_free ? "free" : "held");
+    const ImVec4 colour = is_free ? ImVec4(0.93f, 0.93f, 0.93f, 1) : ImVec4(0.6f, 0.6f, 0.62f, 1);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(colour, "%s", std::string(kCameraParameterNames[i]).c_str());
+    ImGui::TableNextColumn();
+    // Flush right, so that points stand below one another.
+    char number[32];
+    std::snprintf(number, sizeof number, "%.3f", site[i]);
+    const float before = ImGui::CalcTextSize("-000.000").x - ImGui::CalcTextSize(number).x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, before));
+    ImGui::TextColored(colour, "%s", number);
+    ImGui::TableNextColumn();
+    ImGui::TextColored(colour, "\u00B1 %.3f", solution.sigmas[i]);
+    ImGui::TableNextColumn();
+    ImGui::TextColored(colour, "%s", is_free ? "free" : "held");
   }
+  ImGui::EndTable();
 }
 
 void DrawNews(const AlignmentNews& news) {
@@ -100,10 +113,16 @@ void App::DrawTagPanel() {
   if (!solution) return;
   ImGui::Separator();
   if (!solution->fault.empty()) ImGui::TextWrapped("\u25B2 %s", solution->fault.c_str());
-  ImGui::Text("%zu pins, %zu lines; rms %.2f px",
-              work.pins.points.size(),
-              work.pins.lines.size(),
-              solution->rms_px);
+  if (work.pins.points.empty() && work.pins.lines.empty()) {
+    ImGui::TextWrapped(
+        "No pins yet. Drag corners of the model to where the photograph shows them; six or more, "
+        "from all over the picture, decide most.");
+  } else {
+    ImGui::Text("pins %zu, lines %zu; rms %.2f px",
+                work.pins.points.size(),
+                work.pins.lines.size(),
+                solution->rms_px);
+  }
   for (const int pin : WorstFirst(*solution)) {
     const size_t index = static_cast<size_t>(pin);
     const bool is_point = index < work.pins.points.size();
@@ -139,8 +158,13 @@ std::string App::TagStatusLine() const {
     return "on the plan: press where it stood, drag to what it looked at \u00B7 Esc back \u00B7 F1 "
            "keys";
   }
-  if (alignment_.IsRunning())
-    return "aligning ... \u00B7 Esc stops it \u00B7 the window stays alive";
+  if (alignment_.IsRunning()) {
+    // Without three pins registration has to look everywhere that the tag allows.
+    const bool is_long = aligned_work_.pins.points.size() < 3;
+    return "aligning " + session_.photographs()[aligned_photograph_].name +
+           " ... \u00B7 Esc stops it" +
+           (is_long ? " \u00B7 may take minutes from a rough place; three pins make it quick" : "");
+  }
   if (armed_point_ && pin_is_due_) {
     return "click where this corner is in the photograph \u00B7 Enter: where it is seen now \u00B7 "
            "Esc lets it go";
@@ -153,6 +177,19 @@ std::string App::TagStatusLine() const {
   if (solution && solution->worst) {
     return "\u25B2 pin " + std::to_string(*solution->worst + 1) +
            " fits worst: move it, U to leave it out \u00B7 A align";
+  }
+  const PhotographWork& work = session_.work(photograph_);
+  if (session_.IsAsFound(photograph_) && work.accepted) {
+    return "accepted by the run: pins may still move it \u00B7 Alt+Right next photograph \u00B7 F1 "
+           "keys";
+  }
+  if (work.accepted) {
+    return std::string(session_.IsUnsaved(photograph_) ? "taken: Ctrl+S saves it" : "saved") +
+           " \u00B7 N next without a tag \u00B7 F1 keys";
+  }
+  if (work.alignment) {
+    return std::string(work.alignment->rival ? "R shows the rival \u00B7 " : "") +
+           "pin more corners, then A \u00B7 Ctrl+Shift+Enter takes it all the same \u00B7 F1 keys";
   }
   return "drag a corner of the model to where it is in the photograph \u00B7 an edge to its line "
          "\u00B7 A align \u00B7 Ctrl+S save \u00B7 F1 keys";
