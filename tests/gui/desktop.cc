@@ -3,6 +3,7 @@
 #include "tests/gui/desktop.h"
 
 #include <X11/Xlib.h>
+#include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>
 #include <X11/keysym.h>
 #include <fcntl.h>
@@ -11,7 +12,9 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -61,7 +64,7 @@ KeySym SymbolOf(const std::string& key) {
 
 }  // namespace
 
-Desktop::Desktop(int width_px, int height_px) {
+Desktop::Desktop(int width_px, int height_px, const std::string& layout) {
   int channel[2];
   if (pipe(channel) != 0) throw std::runtime_error("no pipe");
   const std::string size = std::to_string(width_px) + "x" + std::to_string(height_px) + "x24";
@@ -72,7 +75,8 @@ Desktop::Desktop(int width_px, int height_px) {
                    "0",
                    size,
                    "-nolisten",
-                   "tcp"},
+                   "tcp",
+                   "-noreset"},  // or the layout goes with the program that set it
                   {});
   close(channel[1]);
   // The server writes its number once it listens.
@@ -81,7 +85,14 @@ Desktop::Desktop(int width_px, int height_px) {
   close(channel[0]);
   if (number.empty()) throw std::runtime_error("Xvfb does not start");
   name_ = ":" + number;
+  if (layout.empty()) return;
+  const pid_t setter = Start({GROUNDGLASS_SETXKBMAP, "-display", name_, layout}, {});
+  int status = 0;
+  waitpid(setter, &status, 0);
+  if (status != 0) throw std::runtime_error("the keyboard has no layout " + layout);
 }
+
+bool Desktop::HasLayouts() { return std::filesystem::exists(GROUNDGLASS_SETXKBMAP); }
 
 Desktop::~Desktop() { Kill(); }
 
@@ -119,6 +130,7 @@ WindowUnderTest::WindowUnderTest(const Desktop& desktop,
       if (attributes.map_state != IsViewable || attributes.width < 200) continue;
       XSetInputFocus(display, children[i], RevertToPointerRoot, CurrentTime);
       corner_px_ = {attributes.x, attributes.y};
+      size_px_ = {attributes.width, attributes.height};
       is_there = true;
     }
     if (children != nullptr) XFree(children);
@@ -153,6 +165,13 @@ void WindowUnderTest::Key(const std::string& keys) {
   }
   for (const KeyCode code : codes) XTestFakeKeyEvent(display, code, True, 0);
   for (size_t i = codes.size(); i > 0; --i) XTestFakeKeyEvent(display, codes[i - 1], False, 0);
+  Flush();
+}
+
+void WindowUnderTest::Place(char qwerty, bool is_down) {
+  // By evdev's numbers, which Xvfb has.
+  static const std::map<char, unsigned> kCodes = {{'5', 14}, {'W', 25}, {']', 35}, {'A', 38}};
+  XTestFakeKeyEvent(static_cast<Display*>(display_), kCodes.at(qwerty), is_down, 0);
   Flush();
 }
 
@@ -204,6 +223,30 @@ nlohmann::json WindowUnderTest::Fence() {
     }
     std::this_thread::sleep_for(10ms);
   }
+}
+
+Image8 WindowUnderTest::Picture() {
+  auto* display = static_cast<Display*>(display_);
+  XImage* shown = XGetImage(display,
+                            DefaultRootWindow(display),
+                            static_cast<int>(corner_px_.x()),
+                            static_cast<int>(corner_px_.y()),
+                            static_cast<unsigned>(size_px_.x()),
+                            static_cast<unsigned>(size_px_.y()),
+                            AllPlanes,
+                            ZPixmap);
+  if (shown == nullptr) throw std::runtime_error("the display shows nothing");
+  Image8 picture(size_px_.x(), size_px_.y(), 3);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const unsigned long rgb = XGetPixel(shown, x, y);
+      for (int c = 0; c < 3; ++c) {
+        picture.At(x, y)[c] = static_cast<uint8_t>(rgb >> (16 - 8 * c) & 0xff);
+      }
+    }
+  }
+  XDestroyImage(shown);
+  return picture;
 }
 
 int WindowUnderTest::Wait() {

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/image.h"
+
 #include <Eigen/Dense>
 #include <nlohmann/json.hpp>
 #include <sys/types.h>
@@ -15,11 +17,14 @@ namespace groundglass {
 // A display without a screen, of this object's own.
 class Desktop {
  public:
-  Desktop(int width_px, int height_px);
+  // layout: of the keyboard, as setxkbmap calls it; empty: as it comes. Throws if that program is
+  // not there (HasLayouts).
+  Desktop(int width_px, int height_px, const std::string& layout = "");
   ~Desktop();
   Desktop(const Desktop&) = delete;
   Desktop& operator=(const Desktop&) = delete;
 
+  static bool HasLayouts();
   const std::string& name() const { return name_; }
   // Ends on the spot, as when a cable is pulled.
   void Kill();
@@ -42,6 +47,8 @@ class WindowUnderTest {
 
   // "Ctrl+Shift+Z", "F3", "Left": down and up again.
   void Key(const std::string& keys);
+  // The key where a QWERTY keyboard has this letter or sign, whatever its layout makes of it.
+  void Place(char qwerty, bool is_down);
   void MoveTo(const Eigen::Vector2d& window_px);
   void Button(int button, bool is_down);
   void Click(const Eigen::Vector2d& window_px);
@@ -50,6 +57,8 @@ class WindowUnderTest {
 
   // Waits until all that was asked for is done and drawn; what the window says of itself then.
   nlohmann::json Fence();
+  // What the display shows of it.
+  Image8 Picture();
   // The exit status once it has ended; -1 if a signal ended it.
   int Wait();
 
@@ -62,6 +71,7 @@ class WindowUnderTest {
   int num_fences_ = 0;
   void* display_ = nullptr;                              // Xlib's
   Eigen::Vector2d corner_px_ = Eigen::Vector2d::Zero();  // of the window, on the desktop
+  Eigen::Vector2i size_px_ = Eigen::Vector2i::Zero();
 };
 
 }  // namespace groundglass

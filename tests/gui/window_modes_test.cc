@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "scene/formats/ignore_mask.h"
+#include "scene/formats/image_io.h"
 #include "scene/formats/registration_io.h"
 #include "scene/formats/view_io.h"
+#include "session/mask_flood.h"
 #include "tests/gui/brick_window.h"
 #include "tests/gui/desktop.h"
 #include "tests/support/temporary_folder.h"
@@ -10,7 +12,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <utility>
 
 namespace groundglass {
@@ -71,6 +75,61 @@ TEST(Window, AnOutputFolderStartsFromWhatWasFoundAndUndoGivesTheNotebookBack) {
   // Nothing to ask about.
   window.Key("Ctrl+Q");
   EXPECT_EQ(window.Wait(), 0);
+}
+
+int CountPixels(const Image8& picture, const std::array<int, 3>& colour) {
+  int count = 0;
+  for (size_t i = 0; i + 2 < picture.values.size(); i += 3) {
+    bool is_alike = true;
+    for (size_t c = 0; c < 3; ++c) {
+      is_alike = is_alike && std::abs(picture.values[i + c] - colour[c]) <= 12;
+    }
+    count += is_alike;
+  }
+  return count;
+}
+
+TEST(Window, AnOutputFolderKnowsTheRivalOfAPhotographInReview) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s4", "s5"}, {});
+  std::vector<Registration> found;
+  for (const std::string name : {"s4", "s5"}) {
+    Registration& registration = found.emplace_back();
+    registration.name = name;
+    registration.width_px = 1200;
+    registration.height_px = 800;
+    registration.measured = registration.corrected =
+        ReadView(folder / "hall/views" / (name + ".view"));
+    registration.covariance = 1e-4 * CameraCovariance::Identity();
+    registration.verdict = name == "s5" ? Verdict::kReview : Verdict::kAccepted;
+  }
+  found[1].reasons = {"another camera 40.0 px away fits almost as well (margin 9 nats)"};
+  found[1].margin_nats = 9;
+  found[1].rival = found[1].corrected;
+  found[1].rival->lookat_in_site.z() += 5;
+  folder.Write("out/registration.json", FormatRegistrations(found));
+  const Desktop desktop(1280, 900);
+  std::vector<std::string> arguments = With(kSmallWindow, folder / "out");
+  arguments.insert(arguments.end(), {"--scene", (folder / "hall").string()});
+  WindowUnderTest window(desktop, arguments, folder.path());
+  constexpr std::array<int, 3> kPurple = {204, 121, 167};
+  window.Key("F3");
+  window.Key("R");
+  nlohmann::json state = window.Fence();
+  ASSERT_EQ(state["photograph"], "s4");
+  EXPECT_THAT(state["message"].get<std::string>(),
+              HasSubstr("only a camera in review has a rival"));
+  window.Key("Alt+Right");
+  state = window.Fence();
+  ASSERT_EQ(state["verdict"], "review");
+  EXPECT_LT(CountPixels(window.Picture(), kPurple), 20);
+  window.Key("R");
+  state = window.Fence();
+  EXPECT_GT(CountPixels(window.Picture(), kPurple), 400) << state["message"];
+  EXPECT_FALSE(state["unsaved"].get<bool>()) << "looking changes nothing";
+  window.Key("R");
+  window.Fence();
+  EXPECT_LT(CountPixels(window.Picture(), kPurple), 20);
 }
 
 TEST(Window, WhileTheKeysAreShownSavingSavesAndLettersAreSoughtFor) {
@@ -196,6 +255,46 @@ TEST(Window, AMaskIsPaintedErasedUndoneAndSaved) {
   EXPECT_EQ(state["photograph"], "s6");
   EXPECT_EQ(state["masked"], 0);
   EXPECT_FALSE(state["mask_unsaved"].get<bool>());
+}
+
+TEST(Window, ADoubleClickFillsUpToTheEdgesOfThePicture) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s5"}, {});
+  const Desktop desktop(1280, 900);
+  WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+  window.Key("F5");
+  nlohmann::json state = window.Fence();
+  const Eigen::Vector2d at = InWindow(state, {150, 90}).array().round();
+  const Eigen::Vector2d origin(state["place"][1].get<double>(), state["place"][2].get<double>());
+  const Eigen::Vector2d at_px = (at - PaneCorner(state) + Eigen::Vector2d(0.5, 0.5) - origin) /
+                                state["place"][0].get<double>();
+  const Image8 flood = FindFlood(ReadSrgb8(folder / "hall/images/s5.jpg"), at_px);
+  const auto expected = std::count(flood.values.begin(), flood.values.end(), 255);
+  ASSERT_GT(expected, 10000) << "the sky";
+  const auto double_click = [&] {
+    window.MoveTo(at);
+    window.Fence();
+    for (const bool is_down : {true, false, true, false}) window.Button(1, is_down);
+  };
+  // Saved at once: what is still being filled belongs to it.
+  double_click();
+  window.Key("Ctrl+S");
+  state = window.Fence();
+  EXPECT_EQ(state["masked"], expected) << state["message"];
+  EXPECT_FALSE(state["mask_unsaved"].get<bool>()) << state["message"];
+  EXPECT_EQ(ReadIgnoreMask(folder / "hall/masks/s5.png", {1200, 800}).values, flood.values);
+  window.Key("Ctrl+Z");
+  EXPECT_EQ(window.Fence()["masked"], 0) << "one step, and no dab of the first click";
+  // The right button takes away.
+  window.Key("Ctrl+Y");
+  ASSERT_EQ(window.Fence()["masked"], expected);
+  window.Button(3, true);
+  window.Button(3, false);
+  window.Button(3, true);
+  window.Button(3, false);
+  state = window.Fence();
+  EXPECT_EQ(state["masked"], 0);
+  EXPECT_THAT(state["message"].get<std::string>(), HasSubstr("Ctrl+Z takes it back"));
 }
 
 }  // namespace

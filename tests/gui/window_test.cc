@@ -200,6 +200,34 @@ TEST(Window, APaintedMaskOutlivesAProgramThatIsKilled) {
   EXPECT_TRUE(fs::exists(folder / "hall/masks/s5.png"));
 }
 
+TEST(Window, UnsavedWorkIsKeptOrDiscardedByKeyAlone) {
+  const TemporaryFolder folder;
+  MakeScene(folder / "hall", {"s5"}, {});
+  const std::string before = ReadTextFile(folder / "hall/views/s5.view");
+  const Desktop desktop(1280, 900);
+  {
+    WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+    window.Key("F3");
+    window.Key("Tab");
+    window.Fence();
+    window.Key("Return");
+    ASSERT_TRUE(window.Fence()["unsaved"].get<bool>());
+    window.Key("Ctrl+Q");
+    EXPECT_TRUE(window.Fence()["covered"].get<bool>()) << "it asks";
+    window.Key("Escape");
+    nlohmann::json state = window.Fence();
+    EXPECT_FALSE(state["covered"].get<bool>());
+    EXPECT_EQ(state["pins"], 1);
+    window.Key("Ctrl+Q");
+    window.Fence();
+    window.Key("Delete");
+    EXPECT_EQ(window.Wait(), 0);
+  }
+  EXPECT_EQ(ReadTextFile(folder / "hall/views/s5.view"), before);
+  WindowUnderTest window(desktop, With(kSmallWindow, folder / "hall"), folder.path());
+  EXPECT_FALSE(window.Fence()["left_work"].get<bool>());
+}
+
 TEST(Window, WhatCannotBeSavedIsToldAndKept) {
   const TemporaryFolder folder;
   MakeScene(folder / "hall", {}, {"s5"});
