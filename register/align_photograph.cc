@@ -220,7 +220,7 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
     return Align(of, solution, elsewhere, written, tie_picture, evidence, size, options);
   };
   alignment.aligned = align(reading, best, rival);
-  alignment.conflict = FindConflictOf(alignment.aligned, edge_model, options);
+  alignment.conflict = FindConflictOf(alignment.aligned, {}, edge_model, options);
   if (registration.verdict == Verdict::kReview && rival.solution != nullptr) {
     const double best_as_rival =
         best.TotalScore() + reading.log_probability - rival.reading->log_probability;

@@ -36,6 +36,8 @@ struct PhotographSet {
   std::vector<PhotographAlignment*> alignments;
   std::vector<AlignedPhotograph> photographs;
   std::vector<CameraAlone> alone;  // the camera that each started with
+  // How far the common solution has found groups of edges from where the model has them.
+  std::vector<Eigen::Vector3d> edge_moves_in_world;
 
   bool Holds(const PhotographAlignment& alignment) const {
     return std::find(alignments.begin(), alignments.end(), &alignment) != alignments.end();
@@ -135,6 +137,7 @@ JointRefinement Refine(const EdgeModel& edge_model,
   for (size_t i = 0; i < set.photographs.size(); ++i) {
     set.photographs[i].whitened = joint.photographs[i].whitened;
   }
+  set.edge_moves_in_world = joint.group_moves_in_world;
   return joint;
 }
 
@@ -153,9 +156,13 @@ TieSupport SupportFor(const AlignedPhotograph& photograph,
   return MeasureTieSupport(0, ties, views, edge_model.sigma, options.tie_support);
 }
 
-AlignmentScore ScoreOf(const AlignedPhotograph& photograph, const ScoreOptions& options) {
-  return ScoreFromSamples(
-      photograph.score_samples, photograph.prior.ProjectionAt(photograph.whitened), options);
+// edge_moves_in_world: where the model's edges are taken to be (none: as they are drawn).
+AlignmentScore ScoreOf(const AlignedPhotograph& photograph,
+                       const std::vector<Eigen::Vector3d>& edge_moves_in_world,
+                       const ScoreOptions& options) {
+  return ScoreFromSamples(WithEdgesMoved(photograph.score_samples, edge_moves_in_world),
+                          photograph.prior.ProjectionAt(photograph.whitened),
+                          options);
 }
 
 // What edges and the tag say for a camera, as far as that can be compared with its second-best one.
@@ -163,8 +170,9 @@ double NatsFor(const AlignedPhotograph& photograph, const AlignmentScore& score)
   return score.nats - 0.5 * photograph.whitened.squaredNorm() + photograph.log_probability;
 }
 
+// As the model draws its edges.
 double NatsFor(const AlignedPhotograph& photograph, const ScoreOptions& options) {
-  return NatsFor(photograph, ScoreOf(photograph, options));
+  return NatsFor(photograph, ScoreOf(photograph, {}, options));
 }
 
 // Photographs that are not accepted by themselves join those that are where others show the same,
@@ -223,7 +231,9 @@ bool TakeOutWorsened(const RegisterOptions& options,
   std::optional<size_t> worst;
   std::pair<bool, double> worst_rank;  // accepted by itself, and share kept
   for (size_t i = 0; i < set.photographs.size(); ++i) {
-    const double kept_nats = NatsFor(set.photographs[i], options.solutions.score);
+    const AlignmentScore score =
+        ScoreOf(set.photographs[i], set.edge_moves_in_world, options.solutions.score);
+    const double kept_nats = NatsFor(set.photographs[i], score);
     if (kept_nats >= options.tie_support.least_share_kept * set.alone[i].nats) continue;
     const std::pair rank(set.alignments[i]->registration.verdict == Verdict::kAccepted,
                          kept_nats / std::max(1e-9, set.alone[i].nats));
@@ -296,7 +306,8 @@ void JudgeMember(size_t i,
   for (const CandidateSample& found : photograph.found) {
     points_in_world.push_back(found.sample.point_in_world);
   }
-  const AlignmentScore score = ScoreOf(photograph, options.solutions.score);
+  const AlignmentScore score =
+      ScoreOf(photograph, set.edge_moves_in_world, options.solutions.score);
   const BestElsewhere elsewhere = FindBestElsewhere(photograph,
                                                     NatsFor(photograph, score),
                                                     set.alone[i],
@@ -323,7 +334,8 @@ void JudgeMember(size_t i,
                  registration);
   registration.undetermined =
       FindUndetermined(registration.sigmas, photograph.written, options.verdict);
-  set.alignments[i]->conflict = FindConflictOf(photograph, edge_model, options);
+  set.alignments[i]->conflict =
+      FindConflictOf(photograph, set.edge_moves_in_world, edge_model, options);
 }
 
 // What each shares with others, beside what these share with one another.

@@ -5,9 +5,10 @@
 namespace groundglass {
 
 std::optional<EdgeConflict> FindConflictOf(const AlignedPhotograph& photograph,
+                                           const std::vector<Eigen::Vector3d>& edge_moves_in_world,
                                            const EdgeModel& edge_model,
                                            const RegisterOptions& options) {
-  return FindEdgeConflict(photograph.conflict_samples,
+  return FindEdgeConflict(WithEdgesMoved(photograph.conflict_samples, edge_moves_in_world),
                           edge_model.edges,
                           photograph.prior.ProjectionAt(photograph.whitened),
                           photograph.width_px,

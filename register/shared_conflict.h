@@ -9,8 +9,10 @@
 
 namespace groundglass {
 
-// Whether the parts of the model's drawing disagree on a photograph's camera (FindEdgeConflict).
+// Whether the parts of the model's drawing disagree on a photograph's camera (FindEdgeConflict),
+// its edges moved by so much (none: as they are drawn).
 std::optional<EdgeConflict> FindConflictOf(const AlignedPhotograph& photograph,
+                                           const std::vector<Eigen::Vector3d>& edge_moves_in_world,
                                            const EdgeModel& edge_model,
                                            const RegisterOptions& options);
 

@@ -9,6 +9,13 @@
 
 namespace groundglass {
 
+namespace {
+
+// Planes that lie less apart were drawn as one. In the model's default sigmas (ModelSigma).
+constexpr double kSamePlaneSigmas = 0.25;
+
+}  // namespace
+
 EdgeModel::EdgeModel(const PolygonModel& model_)
     : model(model_),
       edges(FindModelEdges(model_)),
@@ -16,6 +23,9 @@ EdgeModel::EdgeModel(const PolygonModel& model_)
       visibility(model_),
       sigma(ModelSigma(model_)) {
   const double usual = DefaultModelSigma(model);
+  std::vector<bool> on_ground;
+  for (const EdgeTolerance& tolerance : tolerances) on_ground.push_back(tolerance.on_ground);
+  groups = FindEdgeGroups(model, edges, on_ground, kSamePlaneSigmas * usual);
   looseness = sigma > usual ? std::sqrt(sigma * sigma - usual * usual) : 0;
 }
 

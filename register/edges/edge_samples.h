@@ -3,6 +3,7 @@
 #pragma once
 
 #include "register/camera/parameter_projection.h"
+#include "register/edges/edge_groups.h"
 #include "register/edges/edge_tolerance.h"
 #include "scene/feature_edges.h"
 #include "scene/polygon_model.h"
@@ -22,6 +23,7 @@ struct EdgeModel {
   std::vector<ModelEdge> edges;
   // For each edge (FindEdgeTolerances).
   std::vector<EdgeTolerance> tolerances;
+  EdgeGroups groups;
   Visibility visibility;
   // How far its edges may lie off, one standard deviation, model's unit (ModelSigma); and how much
   // of that is more than a model of its size has by default, and so more than the widths in pixels

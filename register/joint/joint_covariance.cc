@@ -25,6 +25,9 @@ std::vector<double*> BlocksOf(JointState& state, const ceres::Problem& problem) 
   };
   for (MovingEdge& edge : state.edges) add_edge(edge);
   for (MovingTie& tie : state.ties) add(tie.move);
+  for (MovingGroup& group : state.groups) {
+    if (problem.HasParameterBlock(group.move.data())) add(group.move);
+  }
   add_edge(state.ground);
   for (MovingPhotograph& moving : state.moving) add(moving.own);
   for (LensParameters& lens : state.lenses) add(lens);
@@ -108,6 +111,21 @@ std::vector<SampleResidual> ResidualsOfPhotograph(size_t p, const JointState& st
   return residuals;
 }
 
+// Of where an edge's middle lies off: its own displacement and its groups'.
+Eigen::Matrix3d CovarianceOfMiddle(int edge,
+                                   const JointState& state,
+                                   const NormalEquations& equations) {
+  const MovingEdge& mover = state.MoverOf(edge);
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(equations.NumColumns(), 3);
+  directions.middleRows<2>(equations.ColumnOf(mover.displacement.data())) =
+      mover.frame.across.transpose();
+  for (const EdgeGroupPart& part : state.groups_of_edge[edge]) {
+    const Eigen::Index column = equations.ColumnOf(state.groups[part.group].move.data());
+    directions.middleRows(column, part.directions.cols()) = part.directions.transpose();
+  }
+  return directions.transpose() * equations.Solve(directions);
+}
+
 }  // namespace
 
 JointRefinement SummariseTogether(JointState& state, SolvedTogether& solved) {
@@ -151,18 +169,19 @@ JointRefinement SummariseTogether(JointState& state, SolvedTogether& solved) {
                                  moving.num_matched,
                                  ResidualsOfPhotograph(joint.photographs.size(), state)});
   }
+  for (size_t edge = 0; edge < state.edges.size(); ++edge) {
+    joint.group_moves_in_world.push_back(state.GroupMoveOf(static_cast<int>(edge)));
+  }
   for (const MovingTie& tie : state.ties) {
     joint.tie_moves_in_world.push_back(tie.frame.axes_in_world * tie.move);
   }
   for (size_t number = 0; number < state.edges.size(); ++number) {
     if (state.edges[number].num_photographs == 0) continue;
-    const MovingEdge& mover = state.MoverOf(static_cast<int>(number));
-    const Eigen::Index column = equations.ColumnOf(mover.displacement.data());
-    const Eigen::Matrix2d covariance = equations.CovarianceColumns(column, 2).middleRows<2>(column);
-    joint.displacements.push_back({static_cast<int>(number),
-                                   mover.frame.Displacement(mover.displacement, -1),
-                                   mover.frame.Displacement(mover.displacement, 1),
-                                   mover.frame.across * covariance * mover.frame.across.transpose(),
+    const int edge = static_cast<int>(number);
+    joint.displacements.push_back({edge,
+                                   state.DisplacementOf(edge, -1),
+                                   state.DisplacementOf(edge, 1),
+                                   CovarianceOfMiddle(edge, state, equations),
                                    state.edges[number].num_photographs});
   }
   return joint;

@@ -9,6 +9,13 @@ namespace groundglass {
 void JointOptions::Check(const std::string& path) const {
   CheckAbove(common_offset_sigmas, 0, path + "common_offset_sigmas");
   CheckAbove(common_turn_sigmas, 0, path + "common_turn_sigmas");
+  CheckAbove(group_offset_sigmas, 0, path + "group_offset_sigmas");
+  CheckAbove(usual_group_quartile_sigmas, 0, path + "usual_group_quartile_sigmas");
+  CheckFromTo(least_groups, 1, 1000000, path + "least_groups");
+  CheckFromTo(
+      least_group_offset_sigmas, 1e-6, group_offset_sigmas, path + "least_group_offset_sigmas");
+  CheckFromTo(least_edges_of_group, 1, 1000000, path + "least_edges_of_group");
+  CheckFromTo(most_groups, 0, 1000000, path + "most_groups");
   CheckAbove(widest_offset_sigmas, 0, path + "widest_offset_sigmas");
   CheckAbove(ground_level_sigmas, 0, path + "ground_level_sigmas");
   own.Check(path + "own.");

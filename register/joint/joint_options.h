@@ -17,6 +17,18 @@ struct JointOptions {
   // where the model has them and a few are far away.
   double common_offset_sigmas = 1;
   double common_turn_sigmas = 1;
+  // What a group of edges (EdgeGroups) lies off as one, on top of that: the scale of a distribution
+  // of the same kind. A group is moved as one where so many of its edges are seen; of more groups
+  // than this, those with the most edges.
+  double group_offset_sigmas = 1;
+  // Where the upper quartile of what so many groups or more were found to lie off is less than
+  // this, the model is that much better than it claims: the scale shrinks in proportion, to no less
+  // than the last.
+  double usual_group_quartile_sigmas = 0.5;
+  int least_groups = 12;
+  double least_group_offset_sigmas = 0.3;
+  int least_edges_of_group = 3;
+  int most_groups = 200;
   double widest_offset_sigmas = 10;  // one sigma of a normal distribution that ends the tails
   // How far the ground lies above or below the model's lowest level, everywhere alike, one sigma.
   // Soil does not follow a model, however well surveyed: counted in no less than the model's

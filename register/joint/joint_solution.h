@@ -32,6 +32,8 @@ struct JointSolution {
 struct JointRefinement {
   std::vector<JointSolution> photographs;       // in the order given
   std::vector<EdgeDisplacement> displacements;  // in order of edge
+  // Of each of the model's edges, how far its groups lie off (EdgeGroups), model's unit.
+  std::vector<Eigen::Vector3d> group_moves_in_world = {};
   // Of each tie point, from where it was given; model's unit.
   std::vector<Eigen::Vector3d> tie_moves_in_world = {};
 };

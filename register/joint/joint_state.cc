@@ -6,6 +6,7 @@
 #include "scene/model_sigma.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace groundglass {
 namespace {
@@ -28,6 +29,41 @@ EdgeFrame FrameOfGround(const PolygonModel& model, const JointOptions& options) 
       options.ground_level_sigmas * std::max(ModelSigma(model), DefaultModelSigma(model));
   frame.turn_ratio = 0;
   return frame;
+}
+
+// For each edge the groups of which enough edges are seen, in units of their scale.
+std::vector<std::vector<EdgeGroupPart>> GroupsOfSeenEdges(
+    const EdgeModel& edge_model,
+    const std::vector<AlignedPhotograph>& photographs,
+    const JointOptions& options) {
+  const EdgeGroups& groups = edge_model.groups;
+  std::vector<bool> is_seen(edge_model.edges.size(), false);
+  for (const AlignedPhotograph& photograph : photographs) {
+    for (const CandidateSample& found : photograph.found) is_seen[found.sample.edge] = true;
+  }
+  std::vector<int> num_seen(groups.num_numbers.size(), 0);
+  for (size_t edge = 0; edge < is_seen.size(); ++edge) {
+    if (!is_seen[edge]) continue;
+    for (const EdgeGroupPart& part : groups.of_edge[edge]) ++num_seen[part.group];
+  }
+  std::vector<int> by_count(num_seen.size());
+  std::iota(by_count.begin(), by_count.end(), 0);
+  std::stable_sort(
+      by_count.begin(), by_count.end(), [&](int a, int b) { return num_seen[a] > num_seen[b]; });
+  std::vector<bool> is_moved(num_seen.size(), false);
+  for (size_t i = 0; i < by_count.size() && i < static_cast<size_t>(options.most_groups); ++i) {
+    is_moved[by_count[i]] = num_seen[by_count[i]] >= options.least_edges_of_group;
+  }
+  std::vector<std::vector<EdgeGroupPart>> moved(is_seen.size());
+  for (size_t edge = 0; edge < is_seen.size(); ++edge) {
+    if (!is_seen[edge]) continue;
+    for (EdgeGroupPart part : groups.of_edge[edge]) {
+      if (!is_moved[part.group]) continue;
+      part.directions *= options.group_offset_sigmas * edge_model.sigma;
+      moved[edge].push_back(part);
+    }
+  }
+  return moved;
 }
 
 // Bytes that hold both arrays, whatever lies between them for alignment.
@@ -70,6 +106,11 @@ JointState::JointState(const EdgeModel& edge_model_,
   for (const TiePoint& point : tie_points) {
     ties.push_back({FrameOfTiePoint(point, edge_model.sigma), Eigen::Vector3d::Zero()});
   }
+  for (const int num_numbers : edge_model.groups.num_numbers) {
+    groups.push_back({Eigen::Vector2d::Zero(), num_numbers});
+  }
+  group_offset_sigmas = options.group_offset_sigmas;
+  groups_of_edge = GroupsOfSeenEdges(edge_model, photographs, options);
   ground.frame = FrameOfGround(edge_model.model, options);
   const LensParameters own_shares{{options.own_view_angle_share,
                                    options.own_aspect_share,
@@ -89,6 +130,19 @@ JointState::JointState(const EdgeModel& edge_model_,
     }
   }
   lenses = StartLenses(*this);
+}
+
+Eigen::Vector3d JointState::GroupMoveOf(int edge) const {
+  Eigen::Vector3d move = Eigen::Vector3d::Zero();
+  for (const EdgeGroupPart& part : groups_of_edge[edge]) {
+    move += part.directions * groups[part.group].move.head(part.directions.cols());
+  }
+  return move;
+}
+
+Eigen::Vector3d JointState::DisplacementOf(int edge, double along) const {
+  const MovingEdge& mover = MoverOf(edge);
+  return GroupMoveOf(edge) + mover.frame.Displacement(mover.displacement, along);
 }
 
 }  // namespace groundglass

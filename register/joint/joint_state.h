@@ -24,6 +24,12 @@ struct MovingEdge {
   int num_photographs = 0;                                 // that matched it in the last round
 };
 
+// A group of edges as the solve moves it.
+struct MovingGroup {
+  Eigen::Vector2d move = Eigen::Vector2d::Zero();  // in units of its scale; the first num_numbers
+  int num_numbers = 1;
+};
+
 // A tie point as the solve moves it.
 struct MovingTie {
   TieFrame frame;
@@ -62,6 +68,10 @@ struct JointState {
   MovingEdge& MoverOf(int edge) {
     return edge_model.tolerances[edge].on_ground ? ground : edges[edge];
   }
+  // How far the solve has moved an edge with its groups.
+  Eigen::Vector3d GroupMoveOf(int edge) const;
+  // And a point of it in all: with its groups and by itself.
+  Eigen::Vector3d DisplacementOf(int edge, double along) const;
   ParameterProjection ProjectionOf(const MovingPhotograph& photograph) const {
     return photograph.prior.ProjectionAt(photograph.own, lenses[photograph.lens]);
   }
@@ -78,6 +88,9 @@ struct JointState {
   std::pmr::vector<MovingEdge> edges;  // for each of EdgeModel::edges
   std::pmr::vector<MovingTie> ties;    // for each of tie_points
   MovingEdge ground;
+  double group_offset_sigmas = 1;   // the scale of a group's numbers, as found so far
+  std::vector<MovingGroup> groups;  // of EdgeModel::groups
+  std::vector<std::vector<EdgeGroupPart>> groups_of_edge;  // those that are moved, in their scale
   std::vector<MatchedRun> runs;
 };
 

@@ -38,14 +38,12 @@ std::vector<double> MatchPhotograph(size_t p,
   const std::vector<CandidateSample>& found = photograph.found;
   for (size_t start = 0; start < found.size();) {
     MatchedRun run{p, found[start].sample.edge, {}};
-    const MovingEdge& mover = state.MoverOf(run.edge);
     run_residuals_px.clear();
     size_t end = start;
     for (; end < found.size() && found[end].sample.edge == run.edge; ++end) {
       const CandidateSample& sample = found[end];
-      const auto projected =
-          projection.Project(sample.sample.point_in_world +
-                             mover.frame.Displacement(mover.displacement, sample.sample.along));
+      const auto projected = projection.Project(
+          sample.sample.point_in_world + state.DisplacementOf(run.edge, sample.sample.along));
       if (!projected) continue;
       const double predicted_px = sample.normal.dot(projected->image_px - sample.origin_px);
       const double range_px = RangeOf(sample, shrink, options);
@@ -109,6 +107,33 @@ void EstimateSharedOffset(const JointOptions& options, JointState& state) {
   }
   // An edge is displaced by all of its modes together, no further than edges are found to be.
   state.own_bias.shared_offset_sigmas = whole_sigmas / std::sqrt(kNumModesOfAnEdge);
+}
+
+void EstimateGroupOffset(const JointOptions& options, JointState& state) {
+  std::vector<bool> is_moved(state.groups.size(), false);
+  for (const std::vector<EdgeGroupPart>& parts : state.groups_of_edge) {
+    for (const EdgeGroupPart& part : parts) is_moved[part.group] = true;
+  }
+  std::vector<double> offsets_sigmas;
+  for (size_t i = 0; i < state.groups.size(); ++i) {
+    if (!is_moved[i]) continue;
+    for (int k = 0; k < state.groups[i].num_numbers; ++k) {
+      offsets_sigmas.push_back(std::abs(state.groups[i].move[k]) * state.group_offset_sigmas);
+    }
+  }
+  if (static_cast<int>(offsets_sigmas.size()) < options.least_groups) return;
+  const size_t upper_quartile = offsets_sigmas.size() * 3 / 4;
+  const double share =
+      ValueOfRank(std::move(offsets_sigmas), upper_quartile) / options.usual_group_quartile_sigmas;
+  const double offset_sigmas = std::clamp(share * options.group_offset_sigmas,
+                                          options.least_group_offset_sigmas,
+                                          options.group_offset_sigmas);
+  const double factor = offset_sigmas / state.group_offset_sigmas;
+  for (std::vector<EdgeGroupPart>& parts : state.groups_of_edge) {
+    for (EdgeGroupPart& part : parts) part.directions *= factor;
+  }
+  for (MovingGroup& group : state.groups) group.move /= factor;
+  state.group_offset_sigmas = offset_sigmas;
 }
 
 }  // namespace groundglass

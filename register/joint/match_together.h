@@ -14,4 +14,8 @@ void MatchTogether(double shrink, const JointOptions& options, JointState& state
 // together: takes its size from them.
 void EstimateSharedOffset(const JointOptions& options, JointState& state);
 
+// Where groups of edges were found nearer to where the model has them than is usual, believes the
+// model more from here on (JointOptions::usual_group_quartile_sigmas).
+void EstimateGroupOffset(const JointOptions& options, JointState& state);
+
 }  // namespace groundglass

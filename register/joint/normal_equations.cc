@@ -113,7 +113,11 @@ Eigen::VectorXd NormalEquations::LeaveOutUpdate(const std::vector<Rows>& left_ou
 Eigen::MatrixXd NormalEquations::CovarianceColumns(Eigen::Index first, Eigen::Index size) const {
   Eigen::MatrixXd units = Eigen::MatrixXd::Zero(NumColumns(), size);
   units.middleRows(first, size).setIdentity();
-  return inverse_.solve(units);
+  return Solve(units);
+}
+
+Eigen::MatrixXd NormalEquations::Solve(const Eigen::MatrixXd& columns) const {
+  return inverse_.solve(columns);
 }
 
 }  // namespace groundglass

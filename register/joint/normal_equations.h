@@ -34,6 +34,8 @@ class NormalEquations {
   Eigen::VectorXd LeaveOutUpdate(const std::vector<Rows>& left_out) const;
   // What these residuals alone add to the normal equations: their part of the information.
   Eigen::SparseMatrix<double> InformationOf(const std::vector<Rows>& rows) const;
+  // The inverse normal equations times these columns.
+  Eigen::MatrixXd Solve(const Eigen::MatrixXd& columns) const;
   // The inverse normal equations' columns first to first + size - 1.
   Eigen::MatrixXd CovarianceColumns(Eigen::Index first, Eigen::Index size) const;
 

@@ -4,6 +4,7 @@
 
 #include "register/camera/split_prior.h"
 #include "register/edges/aligned_sample.h"
+#include "register/edges/edge_groups.h"
 
 #include <ceres/sized_cost_function.h>
 
@@ -23,13 +24,15 @@ struct EdgeFrame {
 };
 
 // EdgeAlignmentCost for one model edge in one photograph, the edge itself displaced.
-// Blocks: 11 whitened camera parameters, the lens' three (SplitPrior), the edge's displacement in
-// units of its scale. Residuals: one per sample, without unit, whitened.
+// Blocks: 11 whitened camera parameters, the lens' (SplitPrior), the edge's displacement in units
+// of its scale, and the numbers of each of its groups, in units of theirs. Residuals: one per
+// sample, without unit, whitened.
 class SharedEdgeCost : public ceres::CostFunction {
  public:
   SharedEdgeCost(std::vector<AlignedSample> samples,
                  const SplitPrior& prior,
-                 const EdgeFrame& frame);
+                 const EdgeFrame& frame,
+                 std::vector<EdgeGroupPart> groups = {});
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override;
@@ -38,6 +41,7 @@ class SharedEdgeCost : public ceres::CostFunction {
   std::vector<AlignedSample> samples_;
   const SplitPrior& prior_;
   EdgeFrame frame_;
+  std::vector<EdgeGroupPart> groups_;
 };
 
 }  // namespace groundglass

@@ -24,12 +24,12 @@ SolvedTogether StartProblem(const JointOptions& options, JointState& state) {
   for (const MatchedRun& run : state.runs) {
     MovingPhotograph& moving = state.moving[run.photograph];
     MovingEdge& edge = state.MoverOf(run.edge);
-    solved.edge_costs.push_back(
-        solved.problem->AddResidualBlock(new SharedEdgeCost(run.samples, moving.prior, edge.frame),
-                                         nullptr,
-                                         moving.own.data(),
-                                         state.lenses[moving.lens].data(),
-                                         edge.displacement.data()));
+    std::vector<double*> blocks = {
+        moving.own.data(), state.lenses[moving.lens].data(), edge.displacement.data()};
+    const std::vector<EdgeGroupPart>& groups = state.groups_of_edge[run.edge];
+    for (const EdgeGroupPart& part : groups) blocks.push_back(state.groups[part.group].move.data());
+    solved.edge_costs.push_back(solved.problem->AddResidualBlock(
+        new SharedEdgeCost(run.samples, moving.prior, edge.frame, groups), nullptr, blocks));
   }
   for (size_t i = 0; i < state.ties.size(); ++i) {
     for (const TieObservation& observation : state.tie_points[i].observations) {
@@ -46,6 +46,17 @@ SolvedTogether StartProblem(const JointOptions& options, JointState& state) {
   return solved;
 }
 
+// Most are where the model has them and a few are far away, but tails end somewhere: no building is
+// off by a room. widest: one sigma of what ends them, in units of the scale.
+template <int Size>
+void AddLongTailedPrior(double widest, double* block, ceres::Problem& problem) {
+  problem.AddResidualBlock(new StandardNormalCost<Size>, new ceres::CauchyLoss(1), block);
+  problem.AddResidualBlock(
+      new StandardNormalCost<Size>,
+      new ceres::ScaledLoss(nullptr, 1 / (widest * widest), ceres::TAKE_OWNERSHIP),
+      block);
+}
+
 // Adds what is known of each block before; returns the order in which blocks are eliminated.
 std::shared_ptr<ceres::ParameterBlockOrdering> AddPriors(const JointOptions& options,
                                                          JointState& state,
@@ -55,19 +66,25 @@ std::shared_ptr<ceres::ParameterBlockOrdering> AddPriors(const JointOptions& opt
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   if (problem.HasParameterBlock(state.ground.displacement.data())) {
     problem.AddResidualBlock(new StandardNormalCost<4>, nullptr, state.ground.displacement.data());
-    ordering->AddElementToGroup(state.ground.displacement.data(), 1);
+    ordering->AddElementToGroup(state.ground.displacement.data(), 2);
   }
   for (MovingEdge& edge : state.edges) {
     double* block = edge.displacement.data();
     if (!problem.HasParameterBlock(block)) continue;
-    // Tails end somewhere: no building is off by a room.
-    const double widest = options.widest_offset_sigmas / options.common_offset_sigmas;
-    problem.AddResidualBlock(new StandardNormalCost<4>, new ceres::CauchyLoss(1), block);
-    problem.AddResidualBlock(
-        new StandardNormalCost<4>,
-        new ceres::ScaledLoss(nullptr, 1 / (widest * widest), ceres::TAKE_OWNERSHIP),
-        block);
+    AddLongTailedPrior<4>(
+        options.widest_offset_sigmas / options.common_offset_sigmas, block, problem);
     ordering->AddElementToGroup(block, 0);
+  }
+  for (MovingGroup& group : state.groups) {
+    double* block = group.move.data();
+    if (!problem.HasParameterBlock(block)) continue;
+    const double widest = options.widest_offset_sigmas / state.group_offset_sigmas;
+    if (group.num_numbers == 1) {
+      AddLongTailedPrior<1>(widest, block, problem);
+    } else {
+      AddLongTailedPrior<2>(widest, block, problem);
+    }
+    ordering->AddElementToGroup(block, 1);
   }
   for (size_t i = 0; i < state.ties.size(); ++i) {
     MovingTie& tie = state.ties[i];
@@ -86,11 +103,11 @@ std::shared_ptr<ceres::ParameterBlockOrdering> AddPriors(const JointOptions& opt
   for (MovingPhotograph& moving : state.moving) {
     problem.AddResidualBlock(
         new StandardNormalCost<kNumCameraParameters>, nullptr, moving.own.data());
-    ordering->AddElementToGroup(moving.own.data(), 2);
+    ordering->AddElementToGroup(moving.own.data(), 3);
   }
   for (LensParameters& lens : state.lenses) {
     problem.AddResidualBlock(new StandardNormalCost<kNumLensParameters>, nullptr, lens.data());
-    ordering->AddElementToGroup(lens.data(), 3);
+    ordering->AddElementToGroup(lens.data(), 4);
   }
   return ordering;
 }

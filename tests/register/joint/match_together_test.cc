@@ -48,5 +48,42 @@ TEST(EstimateSharedOffset, StaysWithinTheOptions) {
               1e-9);
 }
 
+// The house's groups, each moved by so many of the model's sigmas.
+struct MovedHouse {
+  explicit MovedHouse(double sigmas) {
+    state.groups_of_edge = edge_model.groups.of_edge;
+    for (auto& parts : state.groups_of_edge) {
+      for (EdgeGroupPart& part : parts) part.directions *= edge_model.sigma;
+    }
+    for (MovingGroup& group : state.groups) group.move.setConstant(sigmas);
+  }
+
+  EdgeModel edge_model{MakeHouse()};
+  std::vector<AlignedPhotograph> photographs;
+  std::vector<TiePoint> ties;
+  JointOptions options;
+  JointState state{edge_model, photographs, {}, ties, options};
+};
+
+TEST(EstimateGroupOffset, AGoodModelIsBelievedMoreAndNothingMoves) {
+  MovedHouse house(0.25);
+  const Eigen::Vector3d before = house.state.GroupMoveOf(0);
+  EstimateGroupOffset(house.options, house.state);
+  EXPECT_NEAR(house.state.group_offset_sigmas, 0.5, 1e-9);
+  EXPECT_NEAR((house.state.GroupMoveOf(0) - before).norm(), 0, 1e-9);
+  EXPECT_NEAR(house.state.groups[0].move[0], 0.5, 1e-9);
+}
+
+TEST(EstimateGroupOffset, StaysWithinTheOptionsAndWantsEnoughGroups) {
+  MovedHouse far(4), exact(0), few(0.25);
+  EstimateGroupOffset(far.options, far.state);
+  EXPECT_EQ(far.state.group_offset_sigmas, 1);
+  EstimateGroupOffset(exact.options, exact.state);
+  EXPECT_NEAR(exact.state.group_offset_sigmas, exact.options.least_group_offset_sigmas, 1e-9);
+  few.options.least_groups = 1000;
+  EstimateGroupOffset(few.options, few.state);
+  EXPECT_EQ(few.state.group_offset_sigmas, 1);
+}
+
 }  // namespace
 }  // namespace groundglass

@@ -25,6 +25,10 @@ class SharedEdgeFixture {
                                  LensParameters{{0.6, 0.3, 0.5, 0.4, 0.2}});
     frame_.across << 0.1, 0, 0.02, 0.09, 0, 0.05;
     frame_.turn_ratio = 0.7;
+    groups_.resize(2);
+    groups_[0].directions = Eigen::Vector3d(0.1, -0.2, 0.05);
+    groups_[1].directions.resize(3, 2);
+    groups_[1].directions << 0.2, 0.01, -0.03, 0.1, 0.04, 0.15;
     const ParameterProjection projection =
         prior_.ProjectionAt(CameraParameters::Zero(), LensParameters::Zero());
     std::mt19937_64 random(5);
@@ -43,21 +47,23 @@ class SharedEdgeFixture {
   }
 
   // All blocks one after the other.
-  static constexpr int kNumValues = kNumCameraParameters + kNumLensParameters + 4;
+  static constexpr int kNumBlocks = 5;
+  static constexpr std::array<int, kNumBlocks> kSizes = {
+      kNumCameraParameters, kNumLensParameters, 4, 1, 2};
+  static constexpr int kNumValues = kNumCameraParameters + kNumLensParameters + 4 + 1 + 2;
   using Values = Eigen::Matrix<double, kNumValues, 1>;
   using Jacobian = Eigen::Matrix<double, kNumSamples, kNumValues>;
 
   Eigen::Matrix<double, kNumSamples, 1> Evaluate(const Values& values, Jacobian* jacobian) const {
-    const SharedEdgeCost cost(samples_, prior_, frame_);
-    const std::array<int, 3> sizes = {kNumCameraParameters, kNumLensParameters, 4};
-    const std::array<const double*, 3> blocks = {
-        values.data(),
-        values.data() + kNumCameraParameters,
-        values.data() + kNumCameraParameters + kNumLensParameters};
-    std::array<std::vector<double>, 3> by_block;
-    std::array<double*, 3> jacobians{};
-    for (int block = 0; block < 3; ++block) {
-      by_block[block].resize(kNumSamples * sizes[block]);
+    const SharedEdgeCost cost(samples_, prior_, frame_, groups_);
+    std::array<const double*, kNumBlocks> blocks{};
+    std::array<std::vector<double>, kNumBlocks> by_block;
+    std::array<double*, kNumBlocks> jacobians{};
+    const double* next = values.data();
+    for (int block = 0; block < kNumBlocks; ++block) {
+      blocks[block] = next;
+      next += kSizes[block];
+      by_block[block].resize(kNumSamples * kSizes[block]);
       jacobians[block] = by_block[block].data();
     }
     Eigen::Matrix<double, kNumSamples, 1> residuals;
@@ -65,11 +71,11 @@ class SharedEdgeFixture {
         cost.Evaluate(blocks.data(), residuals.data(), jacobian ? jacobians.data() : nullptr));
     if (jacobian) {
       int column = 0;
-      for (int block = 0; block < 3; ++block) {
+      for (int block = 0; block < kNumBlocks; ++block) {
         using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-        jacobian->middleCols(column, sizes[block]) =
-            Eigen::Map<const Rows>(jacobians[block], kNumSamples, sizes[block]);
-        column += sizes[block];
+        jacobian->middleCols(column, kSizes[block]) =
+            Eigen::Map<const Rows>(jacobians[block], kNumSamples, kSizes[block]);
+        column += kSizes[block];
       }
     }
     return residuals;
@@ -78,6 +84,7 @@ class SharedEdgeFixture {
  private:
   SplitPrior prior_;
   EdgeFrame frame_;
+  std::vector<EdgeGroupPart> groups_;
   std::vector<AlignedSample> samples_;
 };
 

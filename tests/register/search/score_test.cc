@@ -65,5 +65,17 @@ TEST(ScoreFromSamples, WhatLiesBehindTheCameraIsNoObservation) {
   EXPECT_EQ(ScoreFromSamples({behind}, Projection(), {}).observations, 0);
 }
 
+TEST(WithEdgesMoved, AnEdgeIsScoredWhereItIsTakenToBe) {
+  // A foot higher at 100 ft; samples ask along normals that point down.
+  const double px_per_foot =
+      (Projection().ImageOf({0, 0, 0})->y() - Projection().ImageOf({0, 0, 1})->y());
+  const std::vector<ScoreSample> samples = {SampleAt(-px_per_foot)};
+  const std::vector<ScoreSample> moved = WithEdgesMoved(samples, {Eigen::Vector3d(0, 0, 1)});
+  EXPECT_NEAR(ScoreFromSamples(moved, Projection(), {}).nats,
+              ScoreFromSamples({SampleAt(0)}, Projection(), {}).nats,
+              0.01);
+  EXPECT_EQ(WithEdgesMoved(samples, {}).front().point_in_world, samples.front().point_in_world);
+}
+
 }  // namespace
 }  // namespace groundglass
