@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/align_photograph.h"
 
+#include "register/best_elsewhere.h"
 #include "register/fill_registration.h"
 #include "register/keep_stages.h"
 #include "register/shared_conflict.h"
@@ -186,24 +187,34 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   const Solution& best = reading.solutions.front();
   const Refinement& refined = best.refinement;
   const Rival rival = FindRival(readings, options.solutions);
-  FillRegistration({refined.whitened, refined.covariance, refined.num_matched, refined.residuals},
+  Evidence support{best.score, {}, rival.distance_px / size.scale, !points.empty()};
+  CameraCovariance covariance = refined.covariance;
+  if (rival.solution != nullptr) {
+    support.margin_nats = best.TotalScore() - rival.total_score;
+    support.second_best = TagOf(*rival.reading, *rival.solution);
+    const CameraParameters elsewhere = reading.prior.WhitenedAt(
+        rival.reading->prior.ParametersAt(rival.solution->refinement.whitened));
+    CoverBoth(refined.whitened,
+              elsewhere,
+              rival.distance_px * 640 / size.width_px,
+              options.verdict,
+              support,
+              covariance);
+  }
+  FillRegistration({refined.whitened, covariance, refined.num_matched, refined.residuals},
                    reading.prior,
                    edge_model.model,
                    PointsOf(refined.samples),
                    registration);
 
   // Whether to believe it.
-  Evidence support{best.score, {}, rival.distance_px / size.scale, !points.empty()};
-  if (rival.solution != nullptr) {
-    support.margin_nats = best.TotalScore() - rival.total_score;
-    support.second_best = TagOf(*rival.reading, *rival.solution);
-  }
   registration.verdict = Verdict::kAccepted;
   RecordEvidence(support, registration);
   const ParameterProjection projection = reading.prior.ProjectionAt(refined.whitened);
   ApplyJudgement(JudgeFit(support, options.verdict), registration);
   ApplyJudgement(JudgeConvergence(refined.outcome), registration);
-  const bool is_clear = registration.verdict == Verdict::kAccepted && reading.slip.empty();
+  const bool is_clear = registration.verdict == Verdict::kAccepted && reading.slip.empty() &&
+                        !support.claim_covers_both;
   ApplyJudgement(JudgeTag(reading.prior.ParametersAt(refined.whitened),
                           written,
                           reading.slip,

@@ -38,4 +38,18 @@ double ShareOfElsewhere(double margin_nats, double least_margin_nats) {
   return std::clamp(0.5 * (1 - margin_nats / least_margin_nats), 0.0, 1.0);
 }
 
+void CoverBoth(const CameraParameters& whitened,
+               const CameraParameters& elsewhere,
+               double distance_px,
+               const VerdictOptions& options,
+               Evidence& evidence,
+               CameraCovariance& covariance) {
+  const double least_margin = LeastMargin(evidence.score, options);
+  if (!evidence.margin_nats || *evidence.margin_nats >= least_margin) return;
+  if (distance_px > options.max_vertex_sigma_px) return;
+  evidence.claim_covers_both = true;
+  const CameraParameters apart = elsewhere - whitened;
+  covariance += ShareOfElsewhere(*evidence.margin_nats, least_margin) * apart * apart.transpose();
+}
+
 }  // namespace groundglass

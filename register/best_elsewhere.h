@@ -3,6 +3,7 @@
 #pragma once
 
 #include "register/joint/aligned_photograph.h"
+#include "register/verdict/verdict.h"
 
 #include <Eigen/Core>
 
@@ -37,5 +38,15 @@ BestElsewhere FindBestElsewhere(const AlignedPhotograph& photograph,
 // How much of the square of the way to it a claim takes in, so that it covers both cameras: half
 // where edges say as much for it, none where they say least_margin_nats less, never more than all.
 double ShareOfElsewhere(double margin_nats, double least_margin_nats);
+
+// Where edges do not tell a camera from another that is as near as cameras must be known, this is
+// no question of which but of how well: what is claimed covers both, and says so in the evidence.
+// distance_px: between them, at a width of 640; covariance: of the whitened parameters.
+void CoverBoth(const CameraParameters& whitened,
+               const CameraParameters& elsewhere,
+               double distance_px,
+               const VerdictOptions& options,
+               Evidence& evidence,
+               CameraCovariance& covariance);
 
 }  // namespace groundglass

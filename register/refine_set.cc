@@ -268,22 +268,6 @@ Evidence EvidenceFor(const AlignmentScore& score,
   return evidence;
 }
 
-// Where edges do not tell a camera from another that is as near as cameras must be known, this is
-// no question of which but of how well: the claim covers both.
-void CoverBoth(const AlignedPhotograph& photograph,
-               const BestElsewhere& elsewhere,
-               const VerdictOptions& options,
-               Evidence& evidence,
-               JointSolution& solution) {
-  const double least_margin = LeastMargin(evidence.score, options);
-  if (!evidence.margin_nats || *evidence.margin_nats >= least_margin) return;
-  if (elsewhere.distance_px * 640 > options.max_vertex_sigma_px * photograph.prior.width_px) return;
-  evidence.claim_covers_both = true;
-  const CameraParameters apart = *elsewhere.camera - solution.whitened;
-  solution.covariance +=
-      ShareOfElsewhere(*evidence.margin_nats, least_margin) * apart * apart.transpose();
-}
-
 void JudgeMember(size_t i,
                  JointSolution solution,
                  const PhotographSet& set,
@@ -320,7 +304,14 @@ void JudgeMember(size_t i,
     evidence.second_best = TagFromParameters(photograph.prior.ParametersAt(*elsewhere.camera),
                                              photograph.prior.measured);
   }
-  CoverBoth(photograph, elsewhere, options.verdict, evidence, solution);
+  if (elsewhere.camera) {
+    CoverBoth(solution.whitened,
+              *elsewhere.camera,
+              elsewhere.distance_px * 640 / photograph.prior.width_px,
+              options.verdict,
+              evidence,
+              solution.covariance);
+  }
   FillRegistration(solution, photograph.prior, edge_model.model, points_in_world, registration);
   RecordEvidence(evidence, registration);
   registration.verdict = Verdict::kAccepted;

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace groundglass {
 namespace {
 
@@ -76,6 +78,35 @@ TEST(ShareOfElsewhere, IsHalfWhereEdgesSayAsMuchAndNoneWhereTheLeadIsEnough) {
   EXPECT_DOUBLE_EQ(ShareOfElsewhere(20, 20), 0);
   EXPECT_DOUBLE_EQ(ShareOfElsewhere(-20, 20), 1);
   EXPECT_DOUBLE_EQ(ShareOfElsewhere(-90, 20), 1);
+}
+
+// Evidence of 100 observations, and so of a least margin of 20 nats.
+Evidence EvidenceWithMargin(double margin_nats) {
+  Evidence evidence;
+  evidence.score = {150, 100};
+  evidence.margin_nats = margin_nats;
+  return evidence;
+}
+
+TEST(CoverBoth, ACameraThatIsNearWidensTheClaimTowardsIt) {
+  const CameraParameters elsewhere = 2 * CameraParameters::Unit(1);
+  Evidence evidence = EvidenceWithMargin(0);
+  CameraCovariance covariance = CameraCovariance::Identity();
+  CoverBoth(CameraParameters::Zero(), elsewhere, 1.5, {}, evidence, covariance);
+  EXPECT_TRUE(evidence.claim_covers_both);
+  EXPECT_NEAR(covariance(1, 1), 1 + 0.5 * 4, 1e-12);
+  EXPECT_NEAR(covariance.trace(), kNumCameraParameters + 0.5 * 4, 1e-12);
+}
+
+TEST(CoverBoth, OneThatIsFarOrBeatenIsNotCovered) {
+  const CameraParameters elsewhere = CameraParameters::Unit(1);
+  for (const auto& [margin_nats, distance_px] : {std::pair(0.0, 2.5), std::pair(20.0, 1.5)}) {
+    Evidence evidence = EvidenceWithMargin(margin_nats);
+    CameraCovariance covariance = CameraCovariance::Identity();
+    CoverBoth(CameraParameters::Zero(), elsewhere, distance_px, {}, evidence, covariance);
+    EXPECT_FALSE(evidence.claim_covers_both);
+    EXPECT_TRUE(covariance.isIdentity());
+  }
 }
 
 }  // namespace
