@@ -93,6 +93,7 @@ AlignedPhotograph Align(const TagReading& reading,
                         const CameraPrior& written,
                         const std::shared_ptr<const TiePicture>& picture,
                         const EdgeEvidence& evidence,
+                        const std::vector<Eigen::Vector3d>& edge_moves_in_world,
                         const WorkingSize& size,
                         const RegisterOptions& options) {
   const Refinement& refined = solution.refinement;
@@ -120,6 +121,14 @@ AlignedPhotograph Align(const TagReading& reading,
   aligned.score_samples = score_samples(options.joint.start_range_px);
   aligned.conflict_samples = score_samples(options.joint.start_range_px +
                                            ConflictReachPx(size.width_px, options.conflict));
+  // From here on as the model draws them.
+  aligned.score_samples = WithEdgesMovedBack(aligned.score_samples, edge_moves_in_world);
+  aligned.conflict_samples = WithEdgesMovedBack(aligned.conflict_samples, edge_moves_in_world);
+  if (!edge_moves_in_world.empty()) {
+    for (CandidateSample& found : aligned.found) {
+      found.sample.point_in_world -= edge_moves_in_world[found.sample.edge];
+    }
+  }
   if (rival.solution != nullptr) {
     aligned.second_best_nats = rival.total_score;
     aligned.second_best_whitened = reading.prior.WhitenedAt(
@@ -223,15 +232,30 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
                  registration);
   registration.undetermined = FindUndetermined(registration.sigmas, written, options.verdict);
   ApplyJudgement(JudgeControlPoints(points, projection, size.scale, options.verdict), registration);
-  if (!HasCorrection(registration.verdict) || !points.empty()) return alignment;
+  if (!points.empty()) return alignment;
+  alignment.total_nats = best.TotalScore() + reading.log_probability;
+  if (!HasCorrection(registration.verdict)) return alignment;
+  if (!options.independent) {
+    alignment.group_profiles = FindGroupProfiles(
+        best, edge_model, evidence, reading.prior, options.solutions, options.displaced.profile);
+  }
   alignment.is_clear = is_clear;
   const auto tie_picture =
       std::make_shared<const TiePicture>(picture.grey8, picture.ignore, options.ties.num_levels);
   const auto align = [&](const TagReading& of, const Solution& solution, const Rival& elsewhere) {
-    return Align(of, solution, elsewhere, written, tie_picture, evidence, size, options);
+    return Align(of,
+                 solution,
+                 elsewhere,
+                 written,
+                 tie_picture,
+                 evidence,
+                 edge_model.moves_in_world,
+                 size,
+                 options);
   };
   alignment.aligned = align(reading, best, rival);
-  alignment.conflict = FindConflictOf(alignment.aligned, {}, edge_model, options);
+  alignment.conflict = 
+      FindConflictOf(alignment.aligned, edge_model.moves_in_world, edge_model, options);
   if (registration.verdict == Verdict::kReview && rival.solution != nullptr) {
     const double best_as_rival =
         best.TotalScore() + reading.log_probability - rival.reading->log_probability;

@@ -4,6 +4,7 @@
 
 #include "register/edges/edge_samples.h"
 #include "register/joint/joint_refinement.h"
+#include "register/refine/group_profile.h"
 #include "register/register_options.h"
 #include "scene/formats/lens.h"
 #include "scene/image.h"
@@ -11,6 +12,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace groundglass {
 
@@ -33,6 +35,10 @@ struct PhotographAlignment {
   // Of a photograph in `review`, as its second-best camera has it; nothing if there is
   // none.
   std::optional<AlignedPhotograph> second_best = {};
+  // What edges, tag and reading say for its best camera in all, nats; 0 where nothing was found.
+  double total_nats = 0;
+  // How it would suit groups of edges elsewhere; not of one that was rejected.
+  std::vector<GroupProfile> group_profiles = {};
   // Whether edges alone tell its camera from all others, with its tag as it was written.
   bool is_clear = false;
   // Between the parts of the model's drawing, at the camera that was found last, in pixels of the

@@ -5,10 +5,12 @@
 #include "register/best_elsewhere.h"
 #include "register/fill_registration.h"
 #include "register/keep_joint.h"
+#include "register/notebook_overclaim.h"
 #include "register/shared_conflict.h"
 #include "register/surveyed_tags_in_set.h"
 #include "register/ties/find_ties.h"
 #include "scene/error.h"
+#include "scene/least_norm.h"
 
 #include <tbb/parallel_for.h>
 
@@ -170,9 +172,11 @@ double NatsFor(const AlignedPhotograph& photograph, const AlignmentScore& score)
   return score.nats - 0.5 * photograph.whitened.squaredNorm() + photograph.log_probability;
 }
 
-// As the model draws its edges.
-double NatsFor(const AlignedPhotograph& photograph, const ScoreOptions& options) {
-  return NatsFor(photograph, ScoreOf(photograph, {}, options));
+// With the model's edges where each photograph by itself took them to be.
+double NatsAlone(const AlignedPhotograph& photograph,
+                 const EdgeModel& edge_model,
+                 const ScoreOptions& options) {
+  return NatsFor(photograph, ScoreOf(photograph, edge_model.moves_in_world, options));
 }
 
 // Photographs that are not accepted by themselves join those that are where others show the same,
@@ -207,7 +211,8 @@ void JoinByTies(const EdgeModel& edge_model,
           SupportFor(*second_best, views, num_members + i, edge_model, options);
       const ScoreOptions& score = options.solutions.score;
       if (CountedLead(others, support, options.tie_support) >
-          NatsFor(candidate.photograph, score) - NatsFor(*second_best, score)) {
+          NatsAlone(candidate.photograph, edge_model, score) -
+              NatsAlone(*second_best, edge_model, score)) {
         candidate.photograph = *second_best;
         support = others;
       }
@@ -218,7 +223,7 @@ void JoinByTies(const EdgeModel& edge_model,
     if (!candidate.joins) continue;
     set.Add(*candidate.alignment,
             candidate.photograph,
-            NatsFor(candidate.photograph, options.solutions.score));
+            NatsAlone(candidate.photograph, edge_model, options.solutions.score));
   }
 }
 
@@ -312,21 +317,38 @@ void JudgeMember(size_t i,
               evidence,
               solution.covariance);
   }
+  const Eigen::MatrixXd whitened_doubt = SolveLeastNorm(
+      photograph.prior.root, SolveLeastNorm(photograph.prior.root, photograph.doubt).transpose());
+  solution.covariance += whitened_doubt;
   FillRegistration(solution, photograph.prior, edge_model.model, points_in_world, registration);
   RecordEvidence(evidence, registration);
   registration.verdict = Verdict::kAccepted;
   registration.reasons.clear();
   ApplyJudgement(JudgeFit(evidence, options.verdict), registration);
-  ApplyJudgement(JudgeTag(photograph.prior.ParametersAt(solution.whitened),
-                          photograph.written,
-                          photograph.slip,
-                          edge_model.model.unit,
-                          options.verdict),
-                 registration);
   registration.undetermined =
       FindUndetermined(registration.sigmas, photograph.written, options.verdict);
   set.alignments[i]->conflict =
       FindConflictOf(photograph, set.edge_moves_in_world, edge_model, options);
+}
+
+// How far each camera lies from its tag, beside how far those of the whole notebook do: what all of
+// its pages are wrong by is no blunder of one.
+void JudgeTagsOfMembers(const RegisterOptions& options, LengthUnit unit, const PhotographSet& set) {
+  std::vector<CorrectedTag> tags;
+  for (size_t i = 0; i < set.photographs.size(); ++i) {
+    const AlignedPhotograph& photograph = set.photographs[i];
+    tags.push_back({&photograph.written,
+                    photograph.prior.ParametersAt(photograph.whitened),
+                    &set.alignments[i]->registration.covariance});
+  }
+  const VerdictOptions verdict =
+      WithOverclaim(options.verdict, OverclaimOfSet(tags, options.overclaim));
+  for (size_t i = 0; i < set.photographs.size(); ++i) {
+    ApplyJudgement(
+        JudgeTag(
+            tags[i].parameters, *tags[i].written, set.photographs[i].slip, unit, verdict),
+        set.alignments[i]->registration);
+  }
 }
 
 // What each shares with others, beside what these share with one another.
@@ -352,11 +374,12 @@ std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
                                         const std::vector<SeenTagCorner>& tag_corners,
                                         std::vector<MovedTag>* moved_tags) {
   PhotographSet set;
+  set.edge_moves_in_world = edge_model.moves_in_world;
   std::vector<MovedTag> moved;
   for (PhotographAlignment& alignment : alignments) {
     if (alignment.registration.verdict != Verdict::kAccepted) continue;
     if (alignment.aligned.found.empty()) continue;
-    set.Add(alignment, alignment.aligned, NatsFor(alignment.aligned, options.solutions.score));
+    set.Add(alignment, alignment.aligned, NatsAlone(alignment.aligned, edge_model, options.solutions.score));
   }
   JointRefinement joint;
   std::vector<PhotographAlignment*> barred;
@@ -380,6 +403,7 @@ std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
   tbb::parallel_for(size_t{0}, set.photographs.size(), [&](size_t i) {
     JudgeMember(i, joint.photographs[i], set, views, edge_model, options);
   });
+  JudgeTagsOfMembers(options, edge_model.model.unit, set);
   JudgeTiesOfMembers(options.verdict, set);
   return joint.displacements;
 }

@@ -3,6 +3,7 @@
 #include "register/register.h"
 
 #include "register/add_tracks.h"
+#include "register/displaced_groups.h"
 #include "register/notebook_overclaim.h"
 #include "register/refine_set.h"
 #include "register/shared_conflict.h"
@@ -175,7 +176,7 @@ RegisteredScene RegisterScene(const Scene& scene,
                               const Progress& progress) {
   RegisterOptions options = NamedAsInScene(given_options, scene);
   options.Check();
-  const EdgeModel edge_model(scene.model);
+  EdgeModel edge_model(scene.model);
   std::vector<PhotographAlignment> alignments =
       AlignAll(scene, lens, edge_model, options, progress);
   RegisteredScene registered;
@@ -184,6 +185,11 @@ RegisteredScene RegisterScene(const Scene& scene,
       registered.warnings.push_back(DescribeOverclaim(*overclaim));
       options.prior.overclaim = *overclaim;
       alignments = AlignAll(scene, lens, edge_model, options, progress);
+    }
+    const auto align_all = [&] { return AlignAll(scene, lens, edge_model, options, progress); };
+    for (const DisplacedGroup& displaced :
+         FindDisplacedGroups(options.displaced, align_all, edge_model, alignments)) {
+      registered.warnings.push_back(DescribeDisplacedGroup(displaced, edge_model));
     }
     const std::vector<SeenTagCorner> tag_corners = TagCornersOf(scene, registered.warnings);
     RefineWhatIsShared(edge_model, options, tag_corners, progress, alignments, registered);

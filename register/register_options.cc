@@ -6,12 +6,25 @@
 
 namespace groundglass {
 
+void DisplacedGroupOptions::Check(const std::string& path) const {
+  profile.Check(path + "profile.");
+  CheckAtLeast(least_offset_sigmas, 0, path + "least_offset_sigmas");
+  CheckAtLeast(least_suspicion_nats, 0, path + "least_suspicion_nats");
+  CheckAtLeast(least_photographs, 1, path + "least_photographs");
+  CheckFromTo(most_trials, 0, 100, path + "most_trials");
+  CheckAbove(most_nats_of_photograph, 0, path + "most_nats_of_photograph");
+  CheckAtLeast(least_nats_of_photograph, 0, path + "least_nats_of_photograph");
+  CheckAtLeast(least_gain_nats, 0, path + "least_gain_nats");
+  CheckAbove(doubtful_nats, 0, path + "doubtful_nats");
+}
+
 void RegisterOptions::Check() const {
   const std::string path = "registration options: ";
   prior.Check();
   solutions.Check(path + "solutions.");
   readings.Check(path + "readings.");
   overclaim.Check(path + "overclaim.");
+  displaced.Check(path + "displaced.");
   ties.Check(path + "ties.");
   colmap.Check(path + "colmap.");
   tie_support.Check(path + "tie_support.");

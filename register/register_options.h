@@ -7,6 +7,7 @@
 #include "register/joint/joint_refinement.h"
 #include "register/joint/model_errors.h"
 #include "register/refine/find_solutions.h"
+#include "register/refine/group_profile.h"
 #include "register/refine/tag_readings.h"
 #include "register/search/edge_conflict.h"
 #include "register/ties/colmap_matches.h"
@@ -26,9 +27,37 @@ struct OverclaimOptions {
   double least_overclaim = 1.5;
   double most_overclaim = 6;
   int least_photographs = 3;  // so many tell
+  // Of photographs in a common solution, where less is uncertain: from so many times too much on a
+  // tag is judged by what its notebook errs by, if so many photographs tell.
+  double least_overclaim_of_set = 1.2;
+  int least_photographs_of_set = 5;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "overclaim options: ") const;
+};
+
+// When a group of the model's edges is taken to lie elsewhere than it is drawn
+// (FindDisplacedGroups).
+struct DisplacedGroupOptions {
+  GroupProfileOptions profile;
+  // Nearer to its place the common solution finds it, sigmas of the model.
+  double least_offset_sigmas = 2;
+  // A trial is made where the photographs' profiles say so much more for a group elsewhere, nats,
+  // and so many of them show it; so many trials at the most.
+  double least_suspicion_nats = 40;
+  int least_photographs = 2;
+  int most_trials = 3;
+  // What one photograph may add to what all say; with how much it counts as one that says so; and
+  // how much they must say together once all are aligned anew.
+  double most_nats_of_photograph = 40;
+  double least_nats_of_photograph = 10;
+  double least_gain_nats = 40;
+  // Which of two parallel walls is the misplaced one is in doubt where one says this much more than
+  // the other, or less: what is claimed for cameras covers both, by a share that falls with it.
+  double doubtful_nats = 40;
+
+  // Throws Error naming the first field out of range, behind `path`.
+  void Check(const std::string& path = "displaced group options: ") const;
 };
 
 // The options of all stages, in the order in which they work.
@@ -37,6 +66,7 @@ struct RegisterOptions {
   SolutionOptions solutions;
   ReadingOptions readings;
   OverclaimOptions overclaim;
+  DisplacedGroupOptions displaced;
   TieOptions ties;
   TieSupportOptions tie_support;
   JointOptions joint;

@@ -22,6 +22,10 @@ namespace groundglass {
 std::optional<int> FindFaceByNumber(const PolygonModel& model, long long number);
 int HighestFaceNumber(const PolygonModel& model);
 
+// What to call a face: its name, with its number where other faces have that name as well, or the
+// number alone: "wall south", "Haus (face 12)", "face 12".
+std::string NameOfFace(const PolygonModel& model, int face);
+
 // Label pictures with the faces' numbers, for files and people.
 Image16 NumbersFromLabels(const PolygonModel& model, const Image16& labels);
 // And back. `file` held the numbers: Error names it if it holds one that no face has.

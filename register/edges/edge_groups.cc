@@ -2,9 +2,13 @@
 // Part of Groundglass.
 #include "register/edges/edge_groups.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -34,10 +38,12 @@ class PlaneNumbers {
     }
     const int number = static_cast<int>(normals_.size());
     normals_.push_back(normal);
+    offsets_.push_back(offset);
     by_offset_.emplace(offset, number);
     return number;
   }
   const Eigen::Vector3d& NormalOf(int number) const { return normals_[number]; }
+  double OffsetOf(int number) const { return offsets_[number]; }
   int Count() const { return static_cast<int>(normals_.size()); }
 
  private:
@@ -45,6 +51,7 @@ class PlaneNumbers {
   double tolerance_;
   std::multimap<double, int> by_offset_;
   std::vector<Eigen::Vector3d> normals_;
+  std::vector<double> offsets_;
 };
 
 // Where the line that two planes share goes when each moves by one along its normal. For planes
@@ -66,12 +73,60 @@ EdgeGroupPart PlanePart(int group, const Eigen::Vector3d& direction) {
   return part;
 }
 
+// How high the lowest point of each group's edges lies.
+std::vector<double> LowestHeights(const std::vector<ModelEdge>& edges,
+                                  const std::vector<std::vector<EdgeGroupPart>>& parts_of_edge,
+                                  int num_groups) {
+  std::vector<double> lowest(num_groups, std::numeric_limits<double>::infinity());
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const double height = std::min(edges[i].start_in_world.z(), edges[i].end_in_world.z());
+    for (const EdgeGroupPart& part : parts_of_edge[i]) {
+      lowest[part.group] = std::min(lowest[part.group], height);
+    }
+  }
+  return lowest;
+}
+
+// For each plane those that go where it goes: with an upright one those that are parallel and near;
+// with eaves and roofs, which go up and down, all of them that lie no lower.
+std::vector<EdgeGroupSet> FindSets(const PlaneNumbers& planes,
+                                   const std::vector<double>& lowest,
+                                   double tolerance,
+                                   double attached) {
+  constexpr double kLeastSlope = 0.05;  // the upright part of a plane's normal
+  // Each plane is compared with each, and a set may hold them all: towns are not asked.
+  constexpr int kMostPlanes = 2000;
+  if (planes.Count() > kMostPlanes) return {};
+  std::vector<EdgeGroupSet> sets;
+  std::set<std::vector<int>> known;
+  for (int plane = 0; plane < planes.Count(); ++plane) {
+    const Eigen::Vector3d& normal = planes.NormalOf(plane);
+    const bool is_upright = std::abs(normal.z()) < kLeastSlope;
+    EdgeGroupSet set;
+    if (is_upright) set.across_in_world = normal;
+    for (int other = 0; other < planes.Count(); ++other) {
+      const Eigen::Vector3d& other_normal = planes.NormalOf(other);
+      const bool goes_along =
+          is_upright ? normal.dot(other_normal) > kLeastCosine &&
+                           std::abs(planes.OffsetOf(other) - planes.OffsetOf(plane)) <= attached
+                     : lowest[other] >= lowest[plane] - tolerance &&
+                           std::abs(other_normal.z()) >= kLeastSlope;
+      if (!goes_along) continue;
+      set.groups.push_back(other);
+      set.factors.push_back(is_upright ? 1 : other_normal.z());
+    }
+    if (known.insert(set.groups).second) sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
 }  // namespace
 
 EdgeGroups FindEdgeGroups(const PolygonModel& model,
                           const std::vector<ModelEdge>& edges,
                           const std::vector<bool>& on_ground,
-                          double tolerance) {
+                          double tolerance,
+                          double attached) {
   PlaneNumbers planes(ComputeBounds(model).Center(), tolerance);
   std::vector<std::optional<int>> plane_of_face(model.faces.size());
   const auto plane_of = [&](int face, const Eigen::Vector3d& point_in_world) {
@@ -126,7 +181,30 @@ EdgeGroups FindEdgeGroups(const PolygonModel& model,
     part.directions.col(1) = normal.cross(part.directions.col(0));
     groups.of_edge[i].push_back(part);
   }
+  groups.sets = FindSets(planes,
+                         LowestHeights(edges, groups.of_edge, static_cast<int>(groups.num_numbers.size())),
+                         tolerance,
+                         attached);
+  for (const auto& [plane, group] : drawing_of_plane) {
+    for (int number = 0; number < 2; ++number) groups.sets.push_back({{group}, {1}, number, Eigen::Vector3d::Zero()});
+  }
   return groups;
+}
+
+std::vector<std::optional<Eigen::Vector3d>> MovesOfSet(const EdgeGroupSet& set,
+                                                       const EdgeGroups& groups) {
+  std::vector<double> factor_of_group(groups.num_numbers.size(), 0);
+  for (size_t i = 0; i < set.groups.size(); ++i) factor_of_group[set.groups[i]] = set.factors[i];
+  std::vector<std::optional<Eigen::Vector3d>> moves(groups.of_edge.size());
+  for (size_t edge = 0; edge < moves.size(); ++edge) {
+    for (const EdgeGroupPart& part : groups.of_edge[edge]) {
+      const double factor = factor_of_group[part.group];
+      if (factor == 0) continue;
+      if (!moves[edge]) moves[edge] = Eigen::Vector3d::Zero();
+      *moves[edge] += factor * part.directions.col(set.number);
+    }
+  }
+  return moves;
 }
 
 }  // namespace groundglass

@@ -13,6 +13,8 @@ namespace {
 
 // Planes that lie less apart were drawn as one. In the model's default sigmas (ModelSigma).
 constexpr double kSamePlaneSigmas = 0.25;
+// Parallel ones that lie less apart are one wall with its reveals and cornices: 1 m of a building.
+constexpr double kAttachedPlaneSigmas = 33;
 
 }  // namespace
 
@@ -25,7 +27,8 @@ EdgeModel::EdgeModel(const PolygonModel& model_)
   const double usual = DefaultModelSigma(model);
   std::vector<bool> on_ground;
   for (const EdgeTolerance& tolerance : tolerances) on_ground.push_back(tolerance.on_ground);
-  groups = FindEdgeGroups(model, edges, on_ground, kSamePlaneSigmas * usual);
+  groups = FindEdgeGroups(
+      model, edges, on_ground, kSamePlaneSigmas * usual, kAttachedPlaneSigmas * usual);
   looseness = sigma > usual ? std::sqrt(sigma * sigma - usual * usual) : 0;
 }
 
@@ -49,6 +52,8 @@ std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
     const Eigen::Vector3d direction = (span.end_in_world - span.start_in_world).normalized();
     const ModelEdge& edge = edge_model.edges[span.edge];
     const double edge_length = (edge.end_in_world - edge.start_in_world).norm();
+    Eigen::Vector3d move = Eigen::Vector3d::Zero();
+    if (!edge_model.moves_in_world.empty()) move = edge_model.moves_in_world[span.edge];
     for (int i = 0; i < count; ++i) {
       const double s = (i + 0.5) / count;
       const double t =
@@ -56,7 +61,7 @@ std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
       const Eigen::Vector3d point =
           span.start_in_world + t * (span.end_in_world - span.start_in_world);
       const double along = 2 * (point - edge.start_in_world).norm() / edge_length - 1;
-      samples.push_back({point,
+      samples.push_back({point + move,
                          direction,
                          span.edge,
                          along,

@@ -24,6 +24,12 @@ struct EdgeModel {
   // For each edge (FindEdgeTolerances).
   std::vector<EdgeTolerance> tolerances;
   EdgeGroups groups;
+  // How far each group's numbers are taken to lie from where the model draws them, model's unit;
+  // empty: nowhere else.
+  std::vector<Eigen::Vector2d> group_offsets;
+  // How far each edge is taken to lie from where the model draws it; empty: nowhere else. It is
+  // seen where the drawn one would be.
+  std::vector<Eigen::Vector3d> moves_in_world;
   Visibility visibility;
   // How far its edges may lie off, one standard deviation, model's unit (ModelSigma); and how much
   // of that is more than a model of its size has by default, and so more than the widths in pixels

@@ -33,6 +33,9 @@ struct AlignedPhotograph {
   std::string slip = {};
   double log_probability = 0;
   CameraPrior written;
+  // What joins the covariance of its parameters, since of two parts of the model either may be the
+  // misplaced one (FindDisplacedGroups).
+  CameraCovariance doubt = CameraCovariance::Zero();
 };
 
 }  // namespace groundglass

@@ -110,6 +110,9 @@ JointState::JointState(const EdgeModel& edge_model_,
     groups.push_back({Eigen::Vector2d::Zero(), num_numbers});
   }
   group_offset_sigmas = options.group_offset_sigmas;
+  for (size_t i = 0; i < edge_model.group_offsets.size(); ++i) {
+    groups[i].move = edge_model.group_offsets[i] / (group_offset_sigmas * edge_model.sigma);
+  }
   groups_of_edge = GroupsOfSeenEdges(edge_model, photographs, options);
   ground.frame = FrameOfGround(edge_model.model, options);
   const LensParameters own_shares{{options.own_view_angle_share,

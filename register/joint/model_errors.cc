@@ -8,15 +8,6 @@
 #include <algorithm>
 
 namespace groundglass {
-namespace {
-
-std::string NameOfFace(const PolygonModel& model, int face) {
-  const std::string& name = model.faces[face].name;
-  return name.empty() ? "face " + std::to_string(FaceNumber(model, face)) : name;
-}
-
-}  // namespace
-
 void ModelErrorOptions::Check(const std::string& path) const {
   CheckFromTo(min_photographs, 1, 1000000, path + "min_photographs");
   CheckAtLeast(min_sigmas, 0, path + "min_sigmas");

@@ -135,35 +135,22 @@ void Conclude(const Step& step,
   refinement.outcome = is_settled ? Outcome::kConverged : Outcome::kNotSettled;
 }
 
-}  // namespace
-
-void RefineOptions::Check(const std::string& path) const {
-  CheckFromTo(start_sigmas, 0, 10, path + "start_sigmas");
-  CheckFromTo(shrink, 0.01, 0.99, path + "shrink");
-  CheckFromTo(spacing_px, 0.1, 1000, path + "spacing_px");
-  matching.Check(path + "matching.");
-  bias.Check(path + "bias.");
-  CheckAtLeast(border_px, 0, path + "border_px");
-  CheckFromTo(min_noise_px, 1e-6, matching.final_range_px / 2, path + "min_noise_px");
-  CheckAtLeast(min_matched, 1, path + "min_matched");
-  CheckFromTo(num_final_steps, 1, 100, path + "num_final_steps");
-  CheckFromTo(annealing_iterations, 1, 1000, path + "annealing_iterations");
-  CheckFromTo(final_iterations, 1, 1000, path + "final_iterations");
-  CheckFromTo(function_tolerance, 0, 1, path + "function_tolerance");
-  CheckAbove(settled_sigmas, 0, path + "settled_sigmas");
-}
-
-Refinement RefinePhotograph(const CameraParameters& start,
-                            const EdgeModel& edge_model,
-                            const EdgeEvidence& evidence,
-                            const CameraPrior& prior,
-                            const RefineOptions& options,
-                            const std::vector<ControlPoint>& points) {
+// is_left_out: of the model's edges; empty: none.
+Refinement Refine(const CameraParameters& start,
+                  const EdgeModel& edge_model,
+                  const std::vector<bool>& is_left_out,
+                  const EdgeEvidence& evidence,
+                  const CameraPrior& prior,
+                  const RefineOptions& options,
+                  const std::vector<ControlPoint>& points) {
   Refinement refinement;
   refinement.whitened = start;
   const auto sample_edges = [&] {
     refinement.samples = SampleVisibleEdges(
         edge_model, prior.CameraAt(refinement.whitened), -options.border_px, options.spacing_px);
+    if (is_left_out.empty()) return;
+    std::erase_if(refinement.samples,
+                  [&](const EdgeSample& sample) { return is_left_out[sample.edge]; });
   };
   sample_edges();
 
@@ -213,6 +200,42 @@ Refinement RefinePhotograph(const CameraParameters& start,
   refinement.num_matched = static_cast<int>(aligned.size());
   Conclude(step, aligned, prior, before, options, refinement);
   return refinement;
+}
+
+}  // namespace
+
+void RefineOptions::Check(const std::string& path) const {
+  CheckFromTo(start_sigmas, 0, 10, path + "start_sigmas");
+  CheckFromTo(shrink, 0.01, 0.99, path + "shrink");
+  CheckFromTo(spacing_px, 0.1, 1000, path + "spacing_px");
+  matching.Check(path + "matching.");
+  bias.Check(path + "bias.");
+  CheckAtLeast(border_px, 0, path + "border_px");
+  CheckFromTo(min_noise_px, 1e-6, matching.final_range_px / 2, path + "min_noise_px");
+  CheckAtLeast(min_matched, 1, path + "min_matched");
+  CheckFromTo(num_final_steps, 1, 100, path + "num_final_steps");
+  CheckFromTo(annealing_iterations, 1, 1000, path + "annealing_iterations");
+  CheckFromTo(final_iterations, 1, 1000, path + "final_iterations");
+  CheckFromTo(function_tolerance, 0, 1, path + "function_tolerance");
+  CheckAbove(settled_sigmas, 0, path + "settled_sigmas");
+}
+
+Refinement RefinePhotograph(const CameraParameters& start,
+                            const EdgeModel& edge_model,
+                            const EdgeEvidence& evidence,
+                            const CameraPrior& prior,
+                            const RefineOptions& options,
+                            const std::vector<ControlPoint>& points) {
+  return Refine(start, edge_model, {}, evidence, prior, options, points);
+}
+
+Refinement RefineWithoutEdges(const CameraParameters& start,
+                              const EdgeModel& edge_model,
+                              const std::vector<bool>& is_left_out,
+                              const EdgeEvidence& evidence,
+                              const CameraPrior& prior,
+                              const RefineOptions& options) {
+  return Refine(start, edge_model, is_left_out, evidence, prior, options, {});
 }
 
 }  // namespace groundglass

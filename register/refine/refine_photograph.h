@@ -77,4 +77,12 @@ Refinement RefinePhotograph(const CameraParameters& start,
                             const RefineOptions& options,
                             const std::vector<ControlPoint>& points = {});
 
+// The same without some of the model's edges: is_left_out, for each of them.
+Refinement RefineWithoutEdges(const CameraParameters& start,
+                              const EdgeModel& edge_model,
+                              const std::vector<bool>& is_left_out,
+                              const EdgeEvidence& evidence,
+                              const CameraPrior& prior,
+                              const RefineOptions& options);
+
 }  // namespace groundglass

@@ -117,6 +117,13 @@ std::vector<ScoreSample> WithEdgesMoved(std::vector<ScoreSample> samples,
   return samples;
 }
 
+std::vector<ScoreSample> WithEdgesMovedBack(
+    std::vector<ScoreSample> samples, const std::vector<Eigen::Vector3d>& edge_moves_in_world) {
+  if (edge_moves_in_world.empty()) return samples;
+  for (ScoreSample& sample : samples) sample.point_in_world -= edge_moves_in_world[sample.edge];
+  return samples;
+}
+
 std::vector<EdgeScore> ScoreEdges(const std::vector<ScoreSample>& samples,
                                   const ParameterProjection& projection,
                                   double offset_px,

@@ -63,6 +63,8 @@ std::vector<ScoreSample> FindScoreSamples(const std::vector<EdgeSample>& samples
 // none. Each is asked for along the same normals.
 std::vector<ScoreSample> WithEdgesMoved(std::vector<ScoreSample> samples,
                                         const std::vector<Eigen::Vector3d>& edge_moves_in_world);
+std::vector<ScoreSample> WithEdgesMovedBack(
+    std::vector<ScoreSample> samples, const std::vector<Eigen::Vector3d>& edge_moves_in_world);
 // What one edge says for a camera.
 struct EdgeScore {
   int edge = -1;

@@ -80,6 +80,12 @@ void VerdictOptions::Check(const std::string& path) const {
   CheckFromTo(undetermined_share, 0, 1, path + "undetermined_share");
 }
 
+VerdictOptions WithOverclaim(VerdictOptions options, double overclaim) {
+  options.max_prior_sigmas *= overclaim;
+  options.max_prior_chi_squared *= overclaim * overclaim;
+  return options;
+}
+
 void ApplyJudgement(const Judgement& judgement, Registration& registration) {
   registration.verdict = std::max(registration.verdict, judgement.verdict);
   registration.reasons.insert(

@@ -51,6 +51,9 @@ struct VerdictOptions {
   void Check(const std::string& path = "verdict options: ") const;
 };
 
+// How tags are judged that err so many times more than they claim, all of them.
+VerdictOptions WithOverclaim(VerdictOptions options, double overclaim);
+
 // What one test concludes: the best verdict that it leaves possible, and why, in words.
 struct Judgement {
   Verdict verdict = Verdict::kAccepted;

@@ -64,5 +64,23 @@ TEST(DescribeOverclaim, SaysHowManyTimesAndWhatToDo) {
               testing::AllOf(testing::HasSubstr("2.4 times"), testing::HasSubstr("sigma_lookat")));
 }
 
+// What OverclaimOfSet takes of alignments.
+std::vector<CorrectedTag> TagsOf(const std::vector<PhotographAlignment>& alignments) {
+  std::vector<CorrectedTag> tags;
+  for (const PhotographAlignment& alignment : alignments) {
+    const AlignedPhotograph& aligned = alignment.aligned;
+    tags.push_back({&aligned.written,
+                    aligned.prior.ParametersAt(aligned.whitened),
+                    &alignment.registration.covariance});
+  }
+  return tags;
+}
+
+TEST(OverclaimOfSet, IsOneWhereTagsHoldOrFewTell) {
+  EXPECT_EQ(OverclaimOfSet(TagsOf(DrawAlignments(40, 1, 5)), {}), 1);
+  EXPECT_EQ(OverclaimOfSet(TagsOf(DrawAlignments(4, 3, 5)), {}), 1);
+  EXPECT_NEAR(OverclaimOfSet(TagsOf(DrawAlignments(100, 1.6, 5)), {}), 1.6, 0.25);
+}
+
 }  // namespace
 }  // namespace groundglass

@@ -4,12 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
 #include <set>
 
 namespace groundglass {
 namespace {
 
 constexpr double kTolerance = 0.01;
+constexpr double kAttached = 3;
 
 // Axis-parallel box faces, seen from outside; from `low` to `high`.
 void AddBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, PolygonModel& model) {
@@ -32,7 +35,7 @@ void AddBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, PolygonMode
 }
 
 EdgeGroups GroupsOf(const PolygonModel& model, const std::vector<ModelEdge>& edges) {
-  return FindEdgeGroups(model, edges, std::vector<bool>(edges.size(), false), kTolerance);
+  return FindEdgeGroups(model, edges, std::vector<bool>(edges.size(), false), kTolerance, kAttached);
 }
 
 // What an edge does when the groups that move upright planes across x are moved by one.
@@ -139,6 +142,67 @@ TEST(FindEdgeGroups, FacetsThatAreNearlyOnePlaneMoveTheirEdgeLittle) {
   for (const std::vector<EdgeGroupPart>& parts : groups.of_edge) {
     for (const EdgeGroupPart& part : parts) EXPECT_LT(part.directions.norm(), 3);
   }
+}
+
+// How far an edge goes where a set goes by one; nothing if it is not of the set.
+std::optional<Eigen::Vector3d> MoveOfEdgeAt(const Eigen::Vector3d& middle_in_world,
+                                            const EdgeGroupSet& set,
+                                            const EdgeGroups& groups,
+                                            const std::vector<ModelEdge>& edges) {
+  const auto moves = MovesOfSet(set, groups);
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const Eigen::Vector3d middle = (edges[i].start_in_world + edges[i].end_in_world) / 2;
+    if ((middle - middle_in_world).norm() < 1e-6) return moves[i];
+  }
+  ADD_FAILURE() << "no edge there";
+  return std::nullopt;
+}
+
+TEST(EdgeGroupSets, WhatLiesHigherGoesWithTheEaves) {
+  PolygonModel model;
+  AddBox({0, 0, 0}, {10, 10, 5}, model);
+  AddBox({2, 2, 5}, {4, 4, 9}, model);
+  const std::vector<ModelEdge> edges = FindModelEdges(model);
+  const EdgeGroups groups = GroupsOf(model, edges);
+  int num_with_both = 0;
+  int num_with_upper = 0;
+  for (const EdgeGroupSet& set : groups.sets) {
+    if (!set.across_in_world.isZero()) continue;
+    const auto lower = MoveOfEdgeAt({5, 0, 5}, set, groups, edges);
+    const auto upper = MoveOfEdgeAt({3, 2, 9}, set, groups, edges);
+    const auto foot = MoveOfEdgeAt({5, 0, 0}, set, groups, edges);
+    if (foot) continue;  // the level on which all stands, and all goes
+    ASSERT_TRUE(upper);
+    EXPECT_NEAR(upper->z(), 1, 1e-6);
+    num_with_upper += !lower;
+    if (!lower) continue;
+    EXPECT_NEAR(lower->z(), 1, 1e-6);
+    ++num_with_both;
+  }
+  EXPECT_GE(num_with_both, 1);
+  EXPECT_EQ(num_with_upper, 1);
+}
+
+TEST(EdgeGroupSets, WhatStandsOutOfAWallGoesWithIt) {
+  PolygonModel model;
+  AddBox({0, 0, 0}, {10, 10, 5}, model);
+  AddBox({-1, 4, 0}, {0, 6, 4}, model);    // a buttress of the wall at x = 0
+  AddBox({-9, 20, 0}, {-4, 30, 5}, model);  // a neighbour, whose wall is 4 away
+  const std::vector<ModelEdge> edges = FindModelEdges(model);
+  const EdgeGroups groups = GroupsOf(model, edges);
+  int num_of_wall = 0;
+  for (const EdgeGroupSet& set : groups.sets) {
+    if (std::abs(set.across_in_world.x()) < 0.5) continue;
+    const auto wall = MoveOfEdgeAt({0, 5, 5}, set, groups, edges);
+    if (!wall) continue;
+    const auto buttress = MoveOfEdgeAt({-1, 5, 4}, set, groups, edges);
+    const auto neighbour = MoveOfEdgeAt({-4, 25, 5}, set, groups, edges);
+    EXPECT_FALSE(neighbour);
+    if (!buttress) continue;
+    EXPECT_LT((*buttress - *wall).norm(), 1e-6);
+    ++num_of_wall;
+  }
+  EXPECT_GE(num_of_wall, 1);
 }
 
 }  // namespace
