@@ -4,6 +4,7 @@
 
 #include "scene/check_option.h"
 #include "scene/error.h"
+#include "scene/formats/atomic_file.h"
 #include "scene/frames.h"
 
 #include <tbb/parallel_for.h>
@@ -253,6 +254,23 @@ SurfacePage RenderSurfacePage(const SyntheticWorld& world,
     ChartPainter(world, model, visibility, sky_map, light, chart).Paint(result);
   }
   return result;
+}
+
+void WriteSurfaces(const std::filesystem::path& folder,
+                   const SyntheticWorld& world,
+                   const PolygonModel& model,
+                   const Visibility& visibility,
+                   const SkyMap& sky_map,
+                   const Daylight& light,
+                   const SurfaceTruthOptions& options) {
+  const std::vector<SurfaceChart> charts = LayOutSurfaces(model, options);
+  int num_pages = 0;
+  for (const SurfaceChart& chart : charts) num_pages = std::max(num_pages, chart.page + 1);
+  for (int page = 0; page < num_pages; ++page) {
+    WriteSurfacePage(
+        folder, page, RenderSurfacePage(world, model, visibility, sky_map, light, charts, page));
+  }
+  WriteFileAtomically(folder / "charts.csv", FormatCharts(charts));
 }
 
 }  // namespace groundglass

@@ -87,6 +87,9 @@ void WriteSurfaces(const std::filesystem::path& folder,
 // charts.csv: faces from 1, positions in `site`. Reading throws Error naming file and line.
 std::string FormatCharts(const std::vector<SurfaceChart>& charts);
 std::vector<SurfaceChart> ReadCharts(const std::filesystem::path& surfaces_folder);
+void WriteSurfacePage(const std::filesystem::path& surfaces_folder,
+                      int page,
+                      const SurfacePage& surfaces);
 SurfacePage ReadSurfacePage(const std::filesystem::path& surfaces_folder, int page);
 
 }  // namespace groundglass

@@ -2,7 +2,6 @@
 // Part of Groundglass.
 #include "datasets-synthetic/surface_truth.h"
 #include "scene/error.h"
-#include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/view_io.h"
 #include "scene/frames.h"
@@ -18,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kColumns =
+constexpr const char* kChartColumns =
     "face,page,left,top,width,height,x,y,z,right_x,right_y,right_z,down_x,down_y,down_z";
 
 fs::path PageFile(const fs::path& folder, const char* what, int page) {
@@ -28,7 +27,7 @@ fs::path PageFile(const fs::path& folder, const char* what, int page) {
 }  // namespace
 
 std::string FormatCharts(const std::vector<SurfaceChart>& charts) {
-  std::string text = std::string(kColumns) + "\n";
+  std::string text = std::string(kChartColumns) + "\n";
   for (const SurfaceChart& chart : charts) {
     text += fmt::format("{},{},{},{},{},{}",
                         chart.face + 1,
@@ -62,7 +61,8 @@ std::vector<SurfaceChart> ReadCharts(const fs::path& surfaces_folder) {
     }
     const bool is_complete = numbers.size() == 15 && line.tokens.size() == 15;
     if (!is_complete || numbers[0] < 1 || *std::min_element(&numbers[1], &numbers[6]) < 0) {
-      throw Error(file, line.number, std::string("expected ") + kColumns + ", the face from 1");
+      throw Error(
+          file, line.number, std::string("expected ") + kChartColumns + ", the face from 1");
     }
     SurfaceChart chart;
     chart.face = static_cast<int>(numbers[0]) - 1;
@@ -89,23 +89,9 @@ SurfacePage ReadSurfacePage(const fs::path& surfaces_folder, int page) {
   return result;
 }
 
-void WriteSurfaces(const fs::path& folder,
-                   const SyntheticWorld& world,
-                   const PolygonModel& model,
-                   const Visibility& visibility,
-                   const SkyMap& sky_map,
-                   const Daylight& light,
-                   const SurfaceTruthOptions& options) {
-  const std::vector<SurfaceChart> charts = LayOutSurfaces(model, options);
-  int num_pages = 0;
-  for (const SurfaceChart& chart : charts) num_pages = std::max(num_pages, chart.page + 1);
-  for (int page = 0; page < num_pages; ++page) {
-    const SurfacePage rendered =
-        RenderSurfacePage(world, model, visibility, sky_map, light, charts, page);
-    WriteRadiance(PageFile(folder, "page", page), rendered.radiance, {.bits = 16});
-    WriteLabels(PageFile(folder, "kinds", page), rendered.kinds);
-  }
-  WriteFileAtomically(folder / "charts.csv", FormatCharts(charts));
+void WriteSurfacePage(const fs::path& surfaces_folder, int page, const SurfacePage& surfaces) {
+  WriteRadiance(PageFile(surfaces_folder, "page", page), surfaces.radiance, {.bits = 16});
+  WriteLabels(PageFile(surfaces_folder, "kinds", page), surfaces.kinds);
 }
 
 }  // namespace groundglass
