@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Part of Groundglass.
-# Installs what is missing (Debian 12 or later), builds the program, and runs the main job on the
-# bundled brick scene:   ./demo.sh [OUTPUT FOLDER]       default: out/demo
+# Installs what is missing (Debian 12 or later), builds the program with the commands that are needed
+# here, and runs the main job on the bundled brick scene:
+#   ./demo.sh [OUTPUT FOLDER]       default: out/demo
 set -euo pipefail
 
 from=$PWD
@@ -30,7 +31,7 @@ if [[ ! -f build/release/build.ninja ]]; then  # else as test.sh left it
   launcher=()
   if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   cmake --log-level=WARNING --preset release "${launcher[@]}" \
-    -DGROUNDGLASS_TESTS=OFF -DGROUNDGLASS_BENCH=OFF
+    -DGROUNDGLASS_EVERY_COMMAND=OFF -DGROUNDGLASS_TESTS=OFF -DGROUNDGLASS_BENCH=OFF
 fi
 cmake --build --preset release --target groundglass
 groundglass=build/release/cli/groundglass
@@ -58,6 +59,17 @@ Done. Please look at
   $out/model.glb       the textured model, for any glTF viewer
   $out/views/          the corrected tags
 
+END
+# What the demo did without, as the program itself says.
+build_it=$("$groundglass" help calibrate | sed -n 's/.*this builds it: //p')
+if [[ -n $build_it ]]; then
+  cat <<END
+The demo does without view, where, calibrate, synth and parts of render and convert; this builds them:
+  $build_it
+
+END
+fi
+cat <<END
 A window on it, where there is a display:
   $groundglass view $out --scene $scene
 END

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/calibrate_parts.h"
+#include "cli/commands.h"
 
 namespace groundglass {
 
 void AddCalibrateCommand(CLI::App& app, int& exit_status) {
-  CLI::App* command =
-      app.add_subcommand("calibrate", "What a camera, a slide and a photograph know of themselves");
+  CLI::App* command = app.add_subcommand("calibrate", kCalibrateSummary);
   command->require_subcommand(1);
   AddExample(command,
              "groundglass calibrate board board-1.jpg board-2.jpg board-3.jpg -o my.lens\n"

@@ -47,6 +47,17 @@ int RunWithThreads(const CommonOptions& options, const std::function<int()>& wor
 // lines elsewhere, nothing if quiet.
 Progress MakeProgress(const CommonOptions& options, const std::string& title);
 
+// What the help says of the commands that a build may leave out: these stand in it all the same
+// (left_out_commands.cc, left_out_view.cc).
+constexpr const char* kCalibrateSummary =
+    "What a camera, a slide and a photograph know of themselves";
+constexpr const char* kViewSummary =
+    "A window: look around, find a photograph's camera by hand, ask what is where";
+constexpr const char* kWhereSummary =
+    "Where a point is, how sure that is, and which photographs show it";
+constexpr const char* kSynthSummary =
+    "Make a scene with known answers: model, photographs, tags, truth";
+
 // Each adds its subcommand; when it has run, `exit_status` holds what main returns. One file each.
 void AddRunCommand(CLI::App& app, int& exit_status);
 void AddCheckCommand(CLI::App& app, int& exit_status);

@@ -1,80 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/convert_arguments.h"
 #include "cli/json_output.h"
-#include "cli/model_arguments.h"
 #include "cli/option_range.h"
 #include "cli/warnings_last.h"
-#include "exchange/camera_exchange.h"
-#include "exchange/city_gml.h"
-#include "exchange/city_json.h"
-#include "scene/error.h"
 #include "scene/formats/colmap_io.h"
 #include "scene/formats/convert.h"
-#include "scene/formats/osu_io.h"
-#include "scene/formats/textured_model_io.h"
-#include "scene/text.h"
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 namespace groundglass {
 namespace {
 
-struct ConvertArguments {
-  CommonOptions common;
-  std::string input;
-  std::string output;
-  ModelArguments model_arguments;
-  std::optional<LengthUnit> output_unit;
-  std::string images;
-  std::string format;  // that cameras are written in; empty: view files, or COLMAP's text
-  double lookat_distance = 100;
-};
-
-bool EndsIn(const std::string& file, std::string_view ending) {
-  return LowerCase(file).ends_with(ending);
-}
-
-// A textured model for programs of cities.
-ConvertResult ConvertToCityJson(const ConvertArguments& arguments) {
-  TexturedModelReading reading =
-      ReadTexturedModel(arguments.input, arguments.model_arguments.Options());
-  WriteFilesAtomically(FormatCityJson(reading.textured, arguments.output));
-  return {std::to_string(reading.textured.model.faces.size()) + " faces in " + arguments.output,
-          std::move(reading.warnings),
-          std::move(reading.left_out)};
-}
-
-ConvertResult ConvertFromCityGml(const ConvertArguments& arguments) {
-  const ModelReading reading = ReadCityGml(arguments.input);
-  const PolygonModel& model = reading.model;
-  if (EndsIn(arguments.output, ".osu")) {
-    WriteFileAtomically(arguments.output, FormatOsu(model));
-  } else if (EndsIn(arguments.output, ".obj")) {
-    WriteFileAtomically(arguments.output, FormatObj(model));
-  } else {
-    throw Error(arguments.output, "a CityGML model is written as .osu or .obj");
-  }
-  return {std::to_string(model.faces.size()) + " faces in " + arguments.output,
-          reading.warnings,
-          reading.left_out};
-}
-
-ConvertResult ConvertCameras(const ConvertArguments& arguments) {
-  const ExchangeSource source = ReadExchangeSource(arguments.input, arguments.images);
-  ExchangeResult result =
-      arguments.format.empty()
-          ? WriteCamerasAsViews(source, arguments.output, arguments.lookat_distance)
-          : WriteCamerasAs(arguments.format, source, arguments.output);
-  return {std::move(result.summary), std::move(result.warnings)};
-}
-
 ConvertResult Convert(const ConvertArguments& arguments) {
   const std::filesystem::path input = arguments.input;
-  if (!arguments.format.empty() || HasExchangeCameras(input)) return ConvertCameras(arguments);
-  if (EndsIn(arguments.output, ".city.json")) return ConvertToCityJson(arguments);
-  if (EndsIn(arguments.input, ".gml")) return ConvertFromCityGml(arguments);
+  if (const auto exchanged = ConvertExchanged(arguments)) return *exchanged;
   if (std::filesystem::is_directory(input)) {
     if (FindColmapModel(input)) {
       return ConvertColmapToViews(input, arguments.output, arguments.lookat_distance);
@@ -133,11 +76,7 @@ void AddConvertCommand(CLI::App& app, int& exit_status) {
         }
       },
       "write the model's lengths in this unit: " + UnitNames());
-  AddChoice(command,
-            "--to",
-            CameraFormatNames(),
-            "write cameras as another program has them:\n" + DescribeCameraFormats(),
-            arguments->format);
+  AddCameraFormatOption(command, arguments->format);
   command->add_option(
       "--images", arguments->images, "the photographs (of view files by default: ../images)");
   command

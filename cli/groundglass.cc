@@ -5,6 +5,7 @@
 #include "cli/bake_arguments.h"
 #include "cli/commands.h"
 #include "cli/json_output.h"
+#include "cli/left_out.h"
 #include "cli/option_fault.h"
 #include "cli/suggestion.h"
 #include "scene/error.h"
@@ -87,6 +88,8 @@ int RunGroundglass(int argc, char** argv) {
     const std::optional<std::string> usage = DescribeOptionFault(app, error);
     return usage ? Fail(kExitWrongUsage, WithoutProgramName(*usage), as_json)
                  : Fail(kExitWrongInput, error.what(), as_json);
+  } catch (const LeftOut& error) {
+    return Fail(kExitWrongUsage, error.what(), as_json);
   } catch (const std::exception& error) {
     return Fail(kExitWrongInput, error.what(), as_json);
   }

@@ -108,8 +108,7 @@ int RunSynth(const SynthArguments& arguments, bool has_seed) {
 
 void AddSynthCommand(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<SynthArguments>();
-  CLI::App* command = app.add_subcommand(
-      "synth", "Make a scene with known answers: model, photographs, tags, truth");
+  CLI::App* command = app.add_subcommand("synth", kSynthSummary);
   command->add_option("preset", arguments->preset, "which scene; --list shows them");
   command->add_option("-o,--out", arguments->out, "the scene folder to make");
   command->add_option("--size", arguments->size, "of the photographs, as 1500x1000");

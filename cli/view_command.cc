@@ -4,15 +4,11 @@
 #include "cli/json_output.h"
 #include "cli/model_arguments.h"
 #include "cli/option_range.h"
-#include "scene/error.h"
+#include "gui/window.h"
 
 #include <csignal>
 #include <filesystem>
 #include <memory>
-
-#ifdef GROUNDGLASS_HAS_WINDOW
-#include "gui/window.h"
-#endif
 
 namespace groundglass {
 namespace {
@@ -31,7 +27,6 @@ struct ViewArguments {
 };
 
 int RunView(const ViewArguments& arguments) {
-#ifdef GROUNDGLASS_HAS_WINDOW
   WindowOptions options;
   options.folder = arguments.folder;
   options.scene_folder = arguments.scene;
@@ -50,19 +45,13 @@ int RunView(const ViewArguments& arguments) {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
   RunWindow(options);
   return kExitDone;
-#else
-  throw Error(arguments.folder,
-              "this groundglass was built without its window; install libsdl2-dev and libimgui-dev "
-              "and build again. `render` and `where` work without");
-#endif
 }
 
 }  // namespace
 
 void AddViewCommand(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<ViewArguments>();
-  CLI::App* command = app.add_subcommand(
-      "view", "A window: look around, find a photograph's camera by hand, ask what is where");
+  CLI::App* command = app.add_subcommand("view", kViewSummary);
   command->add_option("folder", arguments->folder, "a scene, an output folder, or a model")
       ->required();
   command->add_option("--scene", arguments->scene, "where the photographs of an output folder are");

@@ -223,8 +223,7 @@ int RunWhere(const WhereArguments& arguments) {
 
 void AddWhereCommand(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<WhereArguments>();
-  CLI::App* command = app.add_subcommand(
-      "where", "Where a point is, how sure that is, and which photographs show it");
+  CLI::App* command = app.add_subcommand("where", kWhereSummary);
   command->add_option("folder", arguments->folder, "an output folder, or a scene")->required();
   command->add_option("--scene", arguments->scene, "where the photographs of an output folder are");
   command->add_option("--point", arguments->points, "X,Y,Z: a point, site, the model's unit")

@@ -46,6 +46,9 @@ function(groundglass_room name)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_quick>)
   endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${target_suffix})
+  if(NOT GROUNDGLASS_EVERY_COMMAND)
+    return()  # only whole rooms are installed, and all of them
+  endif()
   install(TARGETS ${target} EXPORT groundglassTargets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   if(ROOM_PUBLIC)
