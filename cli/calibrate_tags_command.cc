@@ -111,8 +111,9 @@ std::optional<WrittenPlace> FindWrittenPlace(const CalibrationScene& scene,
   const auto z = number("z");
   if (!x || !y || !z) return std::nullopt;
   const PriorOptions usual = PriorSuitedTo(scene.model.value_or(PolygonModel()), {});
-  return WrittenPlace{{*x, *y, *z},
-                      number("sigma_position").value_or(*usual.position_m / MetresPerUnit(unit))};
+  return WrittenPlace{
+      {*x, *y, *z},
+      number("sigma_position").value_or(usual.OwnPositionMetres() / MetresPerUnit(unit))};
 }
 
 KnownKeys KeysOfTags(const TagsResult& result) {

@@ -86,12 +86,16 @@ void AddRegisterArguments(CLI::App* command, RegisterArguments& arguments) {
       ->group(by_hand);
   const std::string group = "Standard deviations where the tag does not say";
   command
-      ->add_option("--sigma-position",
-                   prior.position_m,
-                   "across, metres; 0.076 if not given, less at a maquette")
+      ->add_option(
+          "--sigma-position",
+          prior.position_m,
+          "across, metres; not given: 0.076 (less at a maquette), or 0.5 % of the distance, "
+          "the larger")
       ->group(group);
-  command->add_option("--sigma-height", prior.height_m, "metres; 0.03 likewise")->group(group);
-  command->add_option("--sigma-lookat", prior.lookat_m, "metres; 0.122 likewise")->group(group);
+  command->add_option("--sigma-height", prior.height_m, "metres; not given: 0.03 or 0.2 %")
+      ->group(group);
+  command->add_option("--sigma-lookat", prior.lookat_m, "metres; not given: 0.122 or 1 %")
+      ->group(group);
   command->add_option("--sigma-roll", prior.roll_deg, "degrees")
       ->capture_default_str()
       ->group(group);

@@ -66,23 +66,28 @@ using MeasuredSigmas = Eigen::Matrix<double, kNumMeasured, 1>;
 // Position, yaw and pitch follow from them: the first of CameraParameters.
 constexpr int kNumPose = 5;
 
-// One standard deviation each, in the model's unit: the tag's own, else the larger of a length and
-// a share of the distance.
+// One standard deviation each, in the model's unit: the tag's own, else the length that was given,
+// else the larger of a tape's and a share of the distance.
 MeasuredSigmas SigmasOfMeasured(const ViewTag& tag,
                                 const TagSigmas& noted,
                                 LengthUnit unit,
                                 const PriorOptions& options) {
   const double units_per_metre = 1 / MetresPerUnit(unit);
   const double distance = (tag.lookat_in_site - tag.position_in_site).norm();
-  const auto length_sigma = [&](const std::optional<double>& own, double metres, double share) {
-    return own.value_or(std::max(metres * units_per_metre, share * distance));
+  const auto length_sigma = [&](const std::optional<double>& own,
+                                const std::optional<double>& given_m,
+                                double tape_m,
+                                double share) {
+    if (own) return *own;
+    if (given_m) return *given_m * units_per_metre;
+    return std::max(tape_m * units_per_metre, share * distance);
   };
   const double position = length_sigma(
-      noted.position, options.position_m.value_or(kPositionMetres), options.position_share);
+      noted.position, options.position_m, options.OwnPositionMetres(), options.position_share);
   const double height =
-      length_sigma(noted.height, options.height_m.value_or(kHeightMetres), options.height_share);
+      length_sigma(noted.height, options.height_m, options.OwnHeightMetres(), options.height_share);
   const double lookat =
-      length_sigma(noted.lookat, options.lookat_m.value_or(kLookatMetres), options.lookat_share);
+      length_sigma(noted.lookat, options.lookat_m, options.OwnLookatMetres(), options.lookat_share);
   MeasuredSigmas sigmas;
   sigmas << position, position, height, lookat, lookat, lookat;
   return sigmas;
@@ -202,12 +207,13 @@ void PriorOptions::Check() const {
                         "a standard deviation must be above 0, not " + FormatNumber(value));
     }
   };
-  require_positive(position_m.value_or(kPositionMetres), "sigma-position");
+  if (position_m) require_positive(*position_m, "sigma-position");
   CheckAtLeast(position_share, 0, "prior options: position_share");
-  require_positive(height_m.value_or(kHeightMetres), "sigma-height");
+  if (height_m) require_positive(*height_m, "sigma-height");
   CheckAtLeast(height_share, 0, "prior options: height_share");
-  require_positive(lookat_m.value_or(kLookatMetres), "sigma-lookat");
+  if (lookat_m) require_positive(*lookat_m, "sigma-lookat");
   CheckAtLeast(lookat_share, 0, "prior options: lookat_share");
+  CheckAbove(tape_scale, 0, "prior options: tape_scale");
   require_positive(roll_deg, "sigma-roll");
   require_positive(view_angle_share, "sigma-v");
   require_positive(aspect_share, "sigma-a");
@@ -229,14 +235,20 @@ void PriorOptions::Check() const {
   }
 }
 
+double PriorOptions::OwnPositionMetres() const {
+  return std::max(tape_scale * kPositionMetres, kBestOfRulersMetres);
+}
+
+double PriorOptions::OwnHeightMetres() const {
+  return std::max(tape_scale * kHeightMetres, kBestOfRulersMetres);
+}
+
+double PriorOptions::OwnLookatMetres() const {
+  return std::max(tape_scale * kLookatMetres, kBestOfRulersMetres);
+}
+
 PriorOptions PriorSuitedTo(const PolygonModel& model, PriorOptions options) {
-  const double scale = ModelScale(model);
-  const auto fill_in = [&](std::optional<double>& length_m, double at_building_m) {
-    if (!length_m) length_m = std::max(scale * at_building_m, kBestOfRulersMetres);
-  };
-  fill_in(options.position_m, kPositionMetres);
-  fill_in(options.height_m, kHeightMetres);
-  fill_in(options.lookat_m, kLookatMetres);
+  options.tape_scale = ModelScale(model);
   return options;
 }
 

@@ -16,16 +16,16 @@ namespace groundglass {
 
 // One standard deviation of what a tape and a tripod measure, where the tag itself does not say.
 struct PriorOptions {
-  // Camera position: the larger of a length and a share of the distance to the look-at point.
-  // Lengths that nobody gives are a tape's: 0.076 m across (a quarter of a foot; x and y each),
-  // 0.030 m for the height (a tenth of a foot) and 0.122 m (0.4 ft) for each of i, j, k; less at
-  // models smaller than a building (PriorSuitedTo).
+  // Camera position across (x and y each), its height, and each of i, j, k. A length that is given
+  // stands as it is. Where none is: the larger of a tape's, OwnPositionMetres and so on, and of a
+  // share of the distance to the look-at point.
   std::optional<double> position_m;
   double position_share = 0.005;
   std::optional<double> height_m;
   double height_share = 0.002;
   std::optional<double> lookat_m;
   double lookat_share = 0.01;
+  double tape_scale = 1;  // of a tape's lengths: less at a maquette (PriorSuitedTo)
   double roll_deg = 1.5;
   double view_angle_share = 0.01;
   double aspect_share = 0.005;
@@ -54,13 +54,18 @@ struct PriorOptions {
   // deviation: these options' own are taken, unless the lens file's are larger. Names as for lock.
   std::vector<std::string> free;
 
+  // A tape's: 0.076 m across (a quarter of a foot), 0.030 m for the height (a tenth of a foot) and
+  // 0.122 m (0.4 ft), times tape_scale, but not below a millimetre.
+  double OwnPositionMetres() const;
+  double OwnHeightMetres() const;
+  double OwnLookatMetres() const;
   double OwnShift() const { return shift.value_or(digital ? digital_shift : slide_shift); }
 
   void Check() const;  // throws Error naming the first field out of range
 };
 
 // The options with the lengths that nobody gave as suit the model: at a maquette (ModelScale) a
-// ruler takes the place of the tape, and they shrink in proportion, down to a millimetre.
+// ruler takes the place of the tape, and they shrink in proportion.
 PriorOptions PriorSuitedTo(const PolygonModel& model, PriorOptions options);
 
 // What is known of a photograph's camera before looking at the photograph: a normal distribution

@@ -181,9 +181,9 @@ TEST(ModelTolerance, ALooseModelMayLieOffAsAWholeEdgeAndStillScores) {
 TEST(PriorSuitedTo, LeavesATapeToBuildingsAndARulerToMaquettes) {
   PolygonModel house = MakeHouse();
   const PriorOptions at_house = PriorSuitedTo(house, {});
-  EXPECT_EQ(at_house.position_m, 0.076);
-  EXPECT_EQ(at_house.height_m, 0.030);
-  EXPECT_EQ(at_house.lookat_m, 0.122);
+  EXPECT_EQ(at_house.OwnPositionMetres(), 0.076);
+  EXPECT_EQ(at_house.OwnHeightMetres(), 0.030);
+  EXPECT_EQ(at_house.OwnLookatMetres(), 0.122);
   // 0.3 m across: a fiftieth of 15 m, and no less than a millimetre.
   const double scale = 0.3 / ComputeBounds(house).Diagonal();
   for (Eigen::Vector3d& point : house.points_in_world) point *= scale;
@@ -191,8 +191,8 @@ TEST(PriorSuitedTo, LeavesATapeToBuildingsAndARulerToMaquettes) {
   PriorOptions given;
   given.lookat_m = 0.05;
   const PriorOptions at_maquette = PriorSuitedTo(house, given);
-  EXPECT_NEAR(*at_maquette.position_m, 0.076 / 50, 1e-12);
-  EXPECT_EQ(at_maquette.height_m, 0.001);
+  EXPECT_NEAR(at_maquette.OwnPositionMetres(), 0.076 / 50, 1e-12);
+  EXPECT_EQ(at_maquette.OwnHeightMetres(), 0.001);
   EXPECT_EQ(at_maquette.lookat_m, 0.05);  // what a person says stands
 }
 

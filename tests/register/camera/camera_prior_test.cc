@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace groundglass {
@@ -31,6 +32,27 @@ TEST(CameraPrior, TheLargerOfLengthAndShareOfDistanceCounts) {
   tag.lookat_in_site = {0, 90, 5};
   const CameraPrior near = MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, {});
   EXPECT_NEAR(near.sigmas[0], 0.076 / kMetresPerFoot, 1e-9);
+}
+
+// 100 ft away, of which the shares would be ten and more times as much.
+TEST(CameraPrior, LengthsThatAreGivenStandHoweverFarAwayTheCameraIs) {
+  PolygonModel house;
+  house.points_in_world = {{0, 0, 0}, {60, 60, 60}};
+  PriorOptions given;
+  given.position_m = 0.01;
+  given.height_m = 0.02;
+  given.lookat_m = 0.01;
+  // Once for the model and once more changes nothing.
+  given = PriorSuitedTo(house, PriorSuitedTo(house, given));
+  ViewTag tag = LevelTag();
+  CameraPrior prior = MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, given);
+  EXPECT_NEAR(prior.sigmas[0], 0.01 / kMetresPerFoot, 1e-9);
+  EXPECT_NEAR(prior.sigmas[2], 0.02 / kMetresPerFoot, 1e-9);
+  const double yaw_deg = DegreesFromRadians(std::hypot(0.01, 0.01) / kMetresPerFoot / 100);
+  EXPECT_NEAR(prior.sigmas[3], yaw_deg, 1e-6);
+  tag.sigmas.position = 2;
+  prior = MakeCameraPrior(tag, 600, 400, LengthUnit::kFoot, {}, given);
+  EXPECT_NEAR(prior.sigmas[0], 2, 1e-9);
 }
 
 TEST(CameraPrior, TheTagsOwnSigmasWin) {
