@@ -124,9 +124,11 @@ FaceCheck CheckFace(const PolygonModel& model, int face_index) {
   const FlatOutline flat = Flatten(model, face_index, low);
   const bool has_area = ComputeFaceArea(model, face_index) > kZeroAreaShare * size * size;
   check.fault = FindFaultOfOutline(face, flat.corners, tolerance, has_area);
-  if (check.fault.empty() && flat.deviation > kPlanarShare * size) {
+  if (!check.fault.empty()) return check;
+  check.out_of_plane_share = flat.deviation / size;
+  if (check.out_of_plane_share > kPlanarShare) {
     check.warning = fmt::format("is {:.2g} % of its size out of plane; its best plane is used",
-                                100 * flat.deviation / size);
+                                100 * check.out_of_plane_share);
   }
   return check;
 }

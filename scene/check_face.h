@@ -10,8 +10,9 @@ namespace groundglass {
 
 // Faults of a face that make it unusable, and oddities worth a warning; shared by all readers.
 struct FaceCheck {
-  std::string fault;    // empty if usable
-  std::string warning;  // empty if planar within 0.1 % of its size
+  std::string fault;              // empty if usable
+  std::string warning;            // empty if planar within 0.1 % of its size
+  double out_of_plane_share = 0;  // of its size; 0 if it cannot be used
 };
 FaceCheck CheckFace(const PolygonModel& model, int face);
 

@@ -10,6 +10,8 @@
 #include "scene/face_outline.h"
 #include "scene/nested_faces.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <string>
@@ -42,11 +44,10 @@ class FaceMender {
         AddFault(face, check.fault);
         continue;
       }
-      if (!check.warning.empty()) {
-        Warn(lines_.empty() ? 0 : lines_[face], DescribeFace(model_, face) + " " + check.warning);
-      }
+      if (!check.warning.empty()) bent_.emplace_back(face, check);
       mended_.usable.push_back(face);
     }
+    TellBent();
     TellRepeated();
     TellTurned();
     DropDoubles();
@@ -135,6 +136,24 @@ class FaceMender {
     if (outlines.size() != 1) return;
     TakeCorners(face, outlines[0]);
     turned_.push_back(face);
+  }
+
+  // One plan whose heights were rounded bends hundreds of faces: the worst stands for all.
+  void TellBent() {
+    if (bent_.empty()) return;
+    const auto& [face, check] =
+        *std::max_element(bent_.begin(), bent_.end(), [](const auto& a, const auto& b) {
+          return a.second.out_of_plane_share < b.second.out_of_plane_share;
+        });
+    if (bent_.size() == 1) {
+      Warn(lines_.empty() ? 0 : lines_[face], DescribeFace(model_, face) + " " + check.warning);
+      return;
+    }
+    Warn(0,
+         std::to_string(bent_.size()) +
+             " faces are out of plane by more than 0.1 % of their size; their best planes are "
+             "used; the worst: " +
+             Place(face) + fmt::format(", {:.2g} %", 100 * check.out_of_plane_share));
   }
 
   void TellRepeated() {
@@ -242,6 +261,7 @@ class FaceMender {
   const std::vector<int>& lines_;
   PolygonModel& model_;
   std::vector<FaceTexture>& textures_;
+  std::vector<std::pair<int, FaceCheck>> bent_;  // with each face's number
   std::vector<int> repeated_;
   std::vector<int> turned_;
   MendedFaces mended_;

@@ -136,6 +136,16 @@ TEST(ParseOsu, WarnsOfAFaceOutOfPlane) {
             "m.osu:6: face 1 (deck) is 0.35 % of its size out of plane; its best plane is used");
 }
 
+TEST(ParseOsu, TellsFacesOutOfPlaneTogetherWithTheWorst) {
+  const ModelReading reading = ParseOsu(
+      "8 2\n0 0 0\n10 0 0\n10 10 0.2\n0 10 0\n20 0 0\n30 0 0\n30 10 0.4\n20 10 0\n"
+      "4 1 2 3 4 % deck\n4 5 6 7 8 % roof\n",
+      "m.osu");
+  EXPECT_THAT(reading.warnings,
+              ElementsAre("m.osu: 2 faces are out of plane by more than 0.1 % of their size; their "
+                          "best planes are used; the worst: face 2 (roof), line 11, 0.71 %"));
+}
+
 TEST(ParseOsu, AllowsConcaveFacesAndATenthOfAPermilleOutOfPlane) {
   const ModelReading reading =
       ParseOsu("6 1\n0 0 0\n10 0 0\n10 10 0.002\n5 10 0\n5 5 0\n0 5 0\n6 1 2 3 4 5 6", "m.osu");
