@@ -121,6 +121,12 @@ fs::path StemOf(const OutputName& name, const Drawing& drawing, bool is_one_of_m
   return name.stem.parent_path() / file;
 }
 
+std::vector<std::string> WarningsOf(const WrittenDrawing& written) {
+  std::vector<std::string> warnings = AccuracyWarnings(written.accuracy);
+  warnings.insert(warnings.end(), written.warnings.begin(), written.warnings.end());
+  return warnings;
+}
+
 nlohmann::ordered_json ToJson(const Drawing& drawing, const WrittenDrawing& written) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const fs::path& file : written.files) files.push_back(file.string());
@@ -129,7 +135,7 @@ nlohmann::ordered_json ToJson(const Drawing& drawing, const WrittenDrawing& writ
           {"height_px", written.grid.height_px},
           {"pixel_m", written.accuracy.pixel_m},
           {"sentences", DescribeAccuracy(written.accuracy)},
-          {"warnings", AccuracyWarnings(written.accuracy)},
+          {"warnings", WarningsOf(written)},
           {"files", files}};
 }
 
@@ -141,7 +147,7 @@ void Print(const Drawing& drawing, const WrittenDrawing& written) {
   for (const std::string& sentence : DescribeAccuracy(written.accuracy)) {
     std::printf("  %s\n", sentence.c_str());
   }
-  for (const std::string& warning : AccuracyWarnings(written.accuracy)) {
+  for (const std::string& warning : WarningsOf(written)) {
     std::fprintf(stderr, "groundglass: warning: %s: %s\n", drawing.name.c_str(), warning.c_str());
   }
 }

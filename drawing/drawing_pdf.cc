@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 namespace groundglass {
 namespace {
@@ -226,15 +228,16 @@ void PdfSheetOptions::Check() const {
   CheckFromTo(jpeg_quality, 1, 100, "PDF options: jpeg_quality");
 }
 
-void WriteDrawingPdf(const std::filesystem::path& file,
-                     const Drawing& drawing,
-                     const DrawingPainter& painter,
-                     const std::vector<DrawnLine>& lines,
-                     const std::vector<LayerPicture>& layers,
-                     double metres_per_unit,
-                     const PdfSheetOptions& options) {
+std::set<std::string> WriteDrawingPdf(const std::filesystem::path& file,
+                                      const Drawing& drawing,
+                                      const DrawingPainter& painter,
+                                      const std::vector<DrawnLine>& lines,
+                                      const std::vector<LayerPicture>& layers,
+                                      double metres_per_unit,
+                                      const PdfSheetOptions& options) {
   options.Check();
   const Layout layout = MakeLayout(painter.Grid(), layers, options);
+  std::set<std::string> unshown;
   StreamFileAtomically(file, [&](const ByteSink& append) {
     PdfPage page(append, layout.width_mm, layout.height_mm);
     page.SetMeasure(layout.PictureLow(), layout.picture_mm, options.scale);
@@ -262,7 +265,9 @@ void WriteDrawingPdf(const std::filesystem::path& file,
       page.EndLayer();
     }
     page.Finish(options.title);
+    unshown = page.UnshownCharacters();
   });
+  return unshown;
 }
 
 }  // namespace groundglass

@@ -7,6 +7,7 @@
 #include "drawing/layer_pictures.h"
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,14 @@ struct PdfSheetOptions {
 
 // A drawing on a sheet as large as it needs, at true scale: layers Picture, Edges, those given
 // (hidden at first) and Title block; readers' measuring tools count metres. metres_per_unit: of
-// the drawing's lengths. Written beside its place and renamed into it.
-void WriteDrawingPdf(const std::filesystem::path& file,
-                     const Drawing& drawing,
-                     const DrawingPainter& painter,
-                     const std::vector<DrawnLine>& lines,
-                     const std::vector<LayerPicture>& layers,
-                     double metres_per_unit,
-                     const PdfSheetOptions& options);
+// the drawing's lengths. Written beside its place and renamed into it. Returns the characters that
+// its font cannot show.
+std::set<std::string> WriteDrawingPdf(const std::filesystem::path& file,
+                                      const Drawing& drawing,
+                                      const DrawingPainter& painter,
+                                      const std::vector<DrawnLine>& lines,
+                                      const std::vector<LayerPicture>& layers,
+                                      double metres_per_unit,
+                                      const PdfSheetOptions& options);
 
 }  // namespace groundglass

@@ -3,12 +3,14 @@
 #include "drawing/pdf_writer.h"
 
 #include "scene/formats/image_io.h"
+#include "scene/formats/text_encoding.h"
 #include "scene/text.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <string_view>
 
 namespace groundglass {
 namespace {
@@ -30,31 +32,29 @@ std::string Pdf(double value) {
 std::string Pdf(const Eigen::Vector2d& point) { return Pdf(point.x()) + " " + Pdf(point.y()); }
 std::string Ref(int object) { return std::to_string(object) + " 0 R"; }
 
-// The font's encoding is WinAnsi, which holds Latin-1.
-std::string Latin1FromUtf8(const std::string& utf8) {
-  std::string text;
-  for (size_t i = 0; i < utf8.size();) {
-    const auto c = static_cast<unsigned char>(utf8[i]);
-    const size_t length = c < 0x80 ? 1 : c < 0xe0 ? 2 : c < 0xf0 ? 3 : 4;
-    if (c < 0x80) {
-      text += utf8[i];
-    } else if (length == 2 && i + 1 < utf8.size() && c <= 0xc3) {
-      text += static_cast<char>(((c & 3) << 6) | (utf8[i + 1] & 0x3f));
-    } else {
-      text += '?';
-    }
-    i += length;
-  }
-  return text;
-}
-
-std::string PdfString(const std::string& utf8) {
+std::string Escaped(const std::string& bytes) {
   std::string text = "(";
-  for (const char c : Latin1FromUtf8(utf8)) {
+  for (const char c : bytes) {
     if (c == '(' || c == ')' || c == '\\') text += '\\';
     text += c == '\n' || c == '\r' ? ' ' : c;
   }
   return text + ")";
+}
+
+// What readers show outside the page, in fonts of their own: ASCII, or else UTF-16 as digits
+// (7.9.2).
+std::string PdfTextString(const std::string& utf8) {
+  if (std::all_of(utf8.begin(), utf8.end(), [](char c) { return c >= ' ' && c < 0x7f; })) {
+    return Escaped(utf8);
+  }
+  std::string text = "<";
+  for (const char c : Utf16FromUtf8(utf8)) {
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    const auto byte = static_cast<unsigned char>(c);
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15];
+  }
+  return text + ">";
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ void PdfPage::WriteStream(int number, const std::string& dictionary, std::string
 
 int PdfPage::AddLayer(const std::string& name, bool is_shown) {
   const int object = Reserve();
-  WriteObject(object, "<< /Type /OCG /Name " + PdfString(name) + " >>");
+  WriteObject(object, "<< /Type /OCG /Name " + PdfTextString(name) + " >>");
   layers_.push_back({object, is_shown});
   return static_cast<int>(layers_.size()) - 1;
 }
@@ -136,8 +136,9 @@ void PdfPage::FillTriangle(const Eigen::Vector2d& a_mm,
 void PdfPage::DrawText(const Eigen::Vector2d& baseline_mm,
                        double size_mm,
                        const std::string& utf8) {
-  content_ +=
-      "BT /F1 " + Pdf(size_mm) + " Tf " + Pdf(baseline_mm) + " Td " + PdfString(utf8) + " Tj ET\n";
+  // The font's encoding is WinAnsi, which is Windows-1252.
+  content_ += "BT /F1 " + Pdf(size_mm) + " Tf " + Pdf(baseline_mm) + " Td " +
+              Escaped(Windows1252FromUtf8(utf8, unshown_)) + " Tj ET\n";
 }
 
 void PdfPage::SetMeasure(const Eigen::Vector2d& low_mm,
@@ -205,7 +206,7 @@ void PdfPage::Finish(const std::string& title) {
   const int catalog = Reserve();
   WriteObject(catalog, CatalogBody(pages));
   const int info = Reserve();
-  WriteObject(info, "<< /Title " + PdfString(title) + " /Producer (groundglass) >>");
+  WriteObject(info, "<< /Title " + PdfTextString(title) + " /Producer (groundglass) >>");
   const size_t start = size_;
   std::string table = "xref\n0 " + std::to_string(offsets_.size() + 1) + "\n0000000000 65535 f \n";
   for (const size_t offset : offsets_) {

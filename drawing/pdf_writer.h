@@ -7,7 +7,9 @@
 
 #include <Eigen/Dense>
 
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace groundglass {
@@ -40,8 +42,11 @@ class PdfPage {
   void FillTriangle(const Eigen::Vector2d& a_mm,
                     const Eigen::Vector2d& b_mm,
                     const Eigen::Vector2d& c_mm);
-  // Helvetica; what Latin-1 has not becomes '?'. size_mm: of the font, about 1.4 capitals.
+  // Helvetica; what it has not (UnshownCharacters) becomes '?'. size_mm: of the font, about 1.4
+  // capitals.
   void DrawText(const Eigen::Vector2d& baseline_mm, double size_mm, const std::string& utf8);
+
+  const std::set<std::string>& UnshownCharacters() const { return unshown_; }
 
   // What readers' measuring tools say inside a rectangle: metres on the building.
   void SetMeasure(const Eigen::Vector2d& low_mm, const Eigen::Vector2d& size_mm, double scale);
@@ -70,6 +75,7 @@ class PdfPage {
   std::vector<Layer> layers_;
   std::string content_;
   std::string viewport_;
+  std::set<std::string> unshown_;
 };
 
 }  // namespace groundglass

@@ -16,6 +16,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 namespace groundglass {
 namespace {
@@ -226,7 +228,15 @@ class DrawingFiles {
       pdf.sentences.push_back("Warning: " + warning + ".");
     }
     const fs::path file = WithSuffix(stem_, ".pdf");
-    WriteDrawingPdf(file, drawing_, painter_, lines, PictureLayers(), metres_, pdf);
+    const std::set<std::string> unshown =
+        WriteDrawingPdf(file, drawing_, painter_, lines, PictureLayers(), metres_, pdf);
+    if (!unshown.empty()) {
+      std::string list;
+      for (const std::string& character : unshown) list += (list.empty() ? "" : " ") + character;
+      written_.warnings.push_back(
+          "the PDF's font cannot show " + list +
+          ", and has ? in its place; write --title and --note with other characters");
+    }
     written_.files.push_back(file);
   }
 

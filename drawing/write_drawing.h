@@ -33,6 +33,7 @@ struct WrittenDrawing {
   std::vector<std::filesystem::path> files;
   DrawingGrid grid;
   DrawingAccuracy accuracy;
+  std::vector<std::string> warnings;  // besides those of its accuracy
 };
 
 // Writes a drawing of a textured model; the renderer holds the same. stem: the files' path but for

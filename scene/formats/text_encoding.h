@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,12 @@ struct Utf8Text {
   bool is_guessed = false;  // neither UTF-8 nor marked as UTF-16: read as Windows-1252
 };
 Utf8Text Utf8FromBytes(std::string_view bytes);
+
+// A text as Windows-1252, which fonts of PDF have. What that has not becomes '?', and is added to
+// `missing`.
+std::string Windows1252FromUtf8(std::string_view utf8, std::set<std::string>& missing);
+// Big-endian, with the mark before it.
+std::string Utf16FromUtf8(std::string_view utf8);
 
 // How many columns of a terminal a text takes.
 int DisplayWidth(std::string_view utf8);

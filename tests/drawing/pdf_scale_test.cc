@@ -13,6 +13,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 namespace groundglass {
 namespace {
@@ -43,10 +45,10 @@ TexturedModel WallWithWindow() {
   return wall;
 }
 
-void WritePdf(const std::filesystem::path& stem, const WriteDrawingOptions& options) {
+WrittenDrawing WritePdf(const std::filesystem::path& stem, const WriteDrawingOptions& options) {
   const TexturedModel wall = WallWithWindow();
   Renderer renderer(wall);
-  WriteDrawing(stem, renderer, wall, MakeElevation(wall.model, {0}, "wall"), {}, options);
+  return WriteDrawing(stem, renderer, wall, MakeElevation(wall.model, {0}, "wall"), {}, options);
 }
 
 struct RedBox {
@@ -125,6 +127,34 @@ TEST(PdfPage, SmallNumbersHaveNoExponents) {
   EXPECT_THAT(bytes, HasSubstr("0.0004 w 0.0001 G"));
   EXPECT_THAT(bytes, HasSubstr("0.0005 0 m 0 123456.5 l S"));
   EXPECT_EQ(bytes.find("e-"), std::string::npos);
+}
+
+TEST(PdfPage, DashesAndQuotesAreShownAndWhatCannotBeIsNamed) {
+  std::string bytes;
+  const ByteSink append = [&](std::string_view more) { bytes += more; };
+  PdfPage page(append, 100, 100);
+  page.AddLayer("S\u00fcd \u2013 1", true);
+  // Dashes, quotes, the euro sign, and an umlaut as macOS parts it, all in Windows-1252.
+  page.DrawText({1, 1}, 3, "\u2013 \u2014 \u201eSu\u0308d\u201c \u2019 \u20ac");
+  EXPECT_TRUE(page.UnshownCharacters().empty());
+  page.DrawText({1, 5}, 3, "\u0141\u00f3d\u017a");
+  page.Finish("Dom \u2014 \u0141");
+  EXPECT_THAT(bytes, HasSubstr("(\x96 \x97 \x84S\xfc\x64\x93 \x92 \x80) Tj"));
+  EXPECT_THAT(bytes, HasSubstr("(?\xf3\x64?) Tj"));
+  EXPECT_EQ(page.UnshownCharacters(), (std::set<std::string>{"\u0141", "\u017a"}));
+  // Readers show names of layers and the title in fonts of their own.
+  EXPECT_THAT(bytes, HasSubstr("/Name <FEFF005300FC006400202013"));
+  EXPECT_THAT(bytes, HasSubstr("/Title <FEFF0044006F006D0020201400200141>"));
+}
+
+TEST(PdfScale, WhatTheFontCannotShowIsAWarning) {
+  const TemporaryFolder folder;
+  WriteDrawingOptions options;
+  options.kinds = {"pdf"};
+  options.note = "\u0141\u00f3d\u017a \u2013 1988";
+  const WrittenDrawing written = WritePdf(folder / "wall", options);
+  ASSERT_EQ(written.warnings.size(), 1u);
+  EXPECT_THAT(written.warnings[0], HasSubstr("font cannot show \u0141 \u017a, and has ?"));
 }
 
 }  // namespace
