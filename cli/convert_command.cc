@@ -15,8 +15,27 @@
 namespace groundglass {
 namespace {
 
+bool IsModelFile(const std::string& file) {
+  const std::string lower = LowerCase(file);
+  for (const char* ending : {".osu", ".obj", ".glb", ".city.json"}) {
+    if (lower.ends_with(ending)) return true;
+  }
+  return false;
+}
+
+// Whoever names a model's file wants a model, and a folder is none.
+void RefuseFolderOfModel(const std::filesystem::path& input, const std::string& output) {
+  if (!std::filesystem::is_directory(input) || !IsModelFile(output)) return;
+  std::string which = "give the model's own file";
+  if (std::filesystem::is_regular_file(input / "model.glb")) {
+    which = "give " + (input / "model.glb").string();
+  }
+  throw Error(input, "is a folder, and what becomes a model is a model's file; " + which);
+}
+
 ConvertResult Convert(const ConvertArguments& arguments) {
   const std::filesystem::path input = arguments.input;
+  if (arguments.format.empty()) RefuseFolderOfModel(input, arguments.output);
   if (const auto exchanged = ConvertExchanged(arguments)) return *exchanged;
   if (std::filesystem::is_directory(input)) {
     if (FindColmapModel(input)) {
