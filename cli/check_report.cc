@@ -4,6 +4,7 @@
 
 #include "cli/printed_zero.h"
 #include "scene/advice/standpoint.h"
+#include "scene/assumed_unit.h"
 #include "scene/formats/text_encoding.h"
 
 #include <fmt/format.h>
@@ -88,8 +89,8 @@ std::string FormatModelSummary(const PolygonModel& model, const ModelArguments& 
     text += " (" + FormatSize(size, MetresPerUnit(model.unit), "m") + ")";
   }
   text += "\nunit        " + unit;
-  text += arguments.unit          ? ", as --unit says"
-          : model.is_unit_assumed ? ", ASSUMED: neither the file nor --unit says it"
+  text += arguments.unit          ? std::string(", as --unit says")
+          : model.is_unit_assumed ? ", " + std::string(kAssumedUnit)
                                   : ", as the file says";
   return text + "\ntolerance   " + DescribeTolerance(model, arguments) + "\n";
 }

@@ -14,6 +14,7 @@
 #include "pipeline/stage_keys.h"
 #include "pipeline/texture_stages.h"
 #include "scene/advice/advice.h"
+#include "scene/assumed_unit.h"
 #include "scene/error.h"
 #include "scene/formats/model_io.h"
 #include "scene/formats/output_folder.h"
@@ -169,11 +170,13 @@ int RunInvrender(const InvrenderArguments& arguments) {
     const auto others = DescribeOtherModels(scene.folder, scene.model_file);
     if (others) scene.warnings.push_back(*others);
   }
+  if (const auto assumed = DescribeAssumedUnit(scene.model_file, scene.model)) {
+    scene.warnings.push_back(*assumed);
+  }
   // Cameras from elsewhere have no tags to be odd.
-  if (!arguments.views_folder) {
-    for (const Advice& advice : FindOddities(scene, scene_options.model)) {
-      scene.warnings.push_back(FormatAdvice(advice));
-    }
+  for (const Advice& advice : arguments.views_folder ? FindModelOddities(scene, scene_options.model)
+                                                     : FindOddities(scene, scene_options.model)) {
+    scene.warnings.push_back(FormatAdvice(advice));
   }
   const WarningsLast warnings(scene.warnings, arguments.common.quiet);
   RequireSoundPoses(scene);

@@ -172,13 +172,13 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
     const auto others = DescribeOtherModels(scene.folder, scene.model_file);
     if (others) scene.warnings.push_back(*others);
   }
-  if (!arguments.views_folder) {
-    for (const Advice& advice : FindOddities(scene, options.model)) {
-      scene.warnings.push_back(FormatAdvice(advice));
-      // Nothing will fit before it is mended, and the work is long: whoever sees it can stop.
-      if (advice.severity == Advice::Severity::kScene && !common.dry_run) {
-        PrintWarnings({scene.warnings.back()});
-      }
+  // Cameras from elsewhere have no tags to be odd.
+  for (const Advice& advice : arguments.views_folder ? FindModelOddities(scene, options.model)
+                                                     : FindOddities(scene, options.model)) {
+    scene.warnings.push_back(FormatAdvice(advice));
+    // Nothing will fit before it is mended, and the work is long: whoever sees it can stop.
+    if (advice.severity == Advice::Severity::kScene && !common.dry_run) {
+      PrintWarnings({scene.warnings.back()});
     }
   }
   RequireSoundPoses(scene);

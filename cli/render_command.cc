@@ -6,6 +6,7 @@
 #include "cli/montage_arguments.h"
 #include "cli/option_range.h"
 #include "invrender/tiles1988/tiles.h"
+#include "scene/assumed_unit.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
@@ -86,7 +87,11 @@ fs::path ModelOfFolder(const fs::path& folder) {
 TexturedModelReading ReadModelToRender(const RenderArguments& arguments) {
   fs::path file = arguments.model;
   if (fs::is_directory(file)) file = ModelOfFolder(file);
-  return ReadTexturedModel(file, arguments.model_arguments.Options());
+  TexturedModelReading reading = ReadTexturedModel(file, arguments.model_arguments.Options());
+  if (const auto assumed = DescribeAssumedUnit(file, reading.textured.model)) {
+    reading.warnings.push_back(*assumed);
+  }
+  return reading;
 }
 
 std::vector<std::string> Together(std::vector<std::string> warnings,
@@ -109,7 +114,7 @@ void Report(const RenderArguments& arguments,
             int num_frames,
             const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
-    std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
+    std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
   if (arguments.common.json) {
     const nlohmann::ordered_json json = {{"file", arguments.out.string()},

@@ -196,11 +196,11 @@ int RenderElevations(const ElevationArguments& arguments,
   std::vector<std::string> all_warnings = warnings;
   for (const Drawing& drawing : drawings) {
     const auto warning = SectionWarning(textured.model, drawing);
-    if (warning) all_warnings.push_back("warning: " + *warning);
+    if (warning) all_warnings.push_back(*warning);
   }
   all_warnings.insert(all_warnings.end(), renderer.Warnings().begin(), renderer.Warnings().end());
   for (const std::string& warning : all_warnings) {
-    std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
+    std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Drawing& drawing : drawings) {

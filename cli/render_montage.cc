@@ -95,7 +95,7 @@ struct Outcome {
 
 void PrintOutcome(const Outcome& outcome, const CommonOptions& common, const fs::path& out) {
   for (const std::string& warning : outcome.warnings) {
-    std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
+    std::fprintf(stderr, "groundglass: warning: %s\n", warning.c_str());
   }
   const Montage& montage = outcome.montage;
   const Eigen::Vector3d& gain = montage.light.gain;

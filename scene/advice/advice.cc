@@ -61,7 +61,34 @@ bool ShowsBacksOnly(const AdviceContext& context) {
   return front_share < kFewFronts * model_share;
 }
 
+std::vector<Standpoint> FindStandpoints(const Scene& scene,
+                                        const Box& bounds,
+                                        const Visibility& visibility) {
+  std::vector<Standpoint> standpoints;
+  for (const Photograph& photograph : scene.photographs) {
+    standpoints.push_back(
+        FindStandpoint(bounds, visibility, scene.model, photograph.tag, photograph.size));
+  }
+  return standpoints;
+}
+
 }  // namespace
+
+std::vector<Advice> FindModelOddities(const Scene& scene, const ModelOptions& options) {
+  std::vector<Advice> found;
+  if (scene.model.faces.empty()) {
+    AdviseOnUnreadModel(scene, options, found);
+    return found;
+  }
+  const Visibility visibility(scene.model);
+  const Box bounds = ComputeBounds(scene.model);
+  const AdviceContext context{
+      scene, options, bounds, visibility, FindStandpoints(scene, bounds, visibility), found};
+  // Such cameras need not be held by people, who tell the unit.
+  AdviseOnModel(context, Misreading::kOther);
+  if (!ShowsBacksOnly(context)) AdviseOnWinding(context);
+  return found;
+}
 
 std::vector<Advice> FindOddities(const Scene& scene,
                                  const ModelOptions& options,
@@ -72,11 +99,9 @@ std::vector<Advice> FindOddities(const Scene& scene,
     return found;
   }
   const Visibility visibility(scene.model);
-  AdviceContext context{scene, options, ComputeBounds(scene.model), visibility, {}, found};
-  for (const Photograph& photograph : scene.photographs) {
-    context.standpoints.push_back(
-        FindStandpoint(context.bounds, visibility, scene.model, photograph.tag, photograph.size));
-  }
+  const Box bounds = ComputeBounds(scene.model);
+  const AdviceContext context{
+      scene, options, bounds, visibility, FindStandpoints(scene, bounds, visibility), found};
   std::optional<PictureJudge> pictures;
   if (with_pictures) pictures.emplace(scene);
   const PictureJudge* judge = with_pictures ? &*pictures : nullptr;

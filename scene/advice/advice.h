@@ -17,4 +17,8 @@ std::vector<Advice> FindOddities(const Scene& scene,
                                  const ModelOptions& options = {},
                                  bool with_pictures = true);
 
+// What of that is of the model by itself: its size, its coordinates, single faces that are turned.
+// For cameras from elsewhere, which have no tags to be odd.
+std::vector<Advice> FindModelOddities(const Scene& scene, const ModelOptions& options = {});
+
 }  // namespace groundglass

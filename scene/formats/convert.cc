@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/formats/convert.h"
 
+#include "scene/assumed_unit.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/colmap_io.h"
@@ -71,6 +72,9 @@ ConvertResult ConvertModel(const fs::path& input,
   TexturedModelReading reading = ReadTexturedModel(input, options, to != ".osu");
   result.warnings = std::move(reading.warnings);
   TexturedModel& textured = reading.textured;
+  if (const auto assumed = DescribeAssumedUnit(input, textured.model)) {
+    result.warnings.push_back(*assumed);
+  }
   if (output_unit) ChangeUnit(*output_unit, textured.model);
   if (to == ".osu") {
     WriteFileAtomically(output, FormatOsu(textured.model));

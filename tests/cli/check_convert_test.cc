@@ -103,6 +103,59 @@ TEST(Convert, TellsAFaceThatIsLeftOutAndCountsIt) {
   EXPECT_EQ(json::parse(as_json.out)["faces_left_out"], json({4}));
 }
 
+TEST(Convert, OfAFolderNamesTheModelInIt) {
+  const TemporaryFolder work;
+  fs::create_directories(work / "out");
+  WriteAll(work / "out/model.glb", "");
+  for (const char* output : {"hall.city.json", "hall.osu", "hall.glb"}) {
+    const ProgramRun run =
+        RunProgram({"convert", (work / "out").string(), (work / output).string()});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.err, HasSubstr("give " + (work / "out/model.glb").string())) << output;
+  }
+  EXPECT_FALSE(fs::exists(work / "hall.osu"));
+}
+
+// A model without a unit, and one that was saved in single precision far from its origin.
+TEST(Told, AnAssumedUnitAndCoordinatesOfFloats) {
+  const TemporaryFolder work;
+  CopyBrick(work / "scene", {"s1"});
+  const std::string model = (work / "scene/model.osu").string();
+  const std::string assumed = model + ": the unit, ft, is ASSUMED: neither the file nor --unit";
+  const std::string view = (work / "scene/views/s1.view").string();
+  const std::string views = (work / "scene/views").string();
+  const std::string scene = (work / "scene").string();
+  const std::string out = (work / "out").string();
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"invrender", scene, "-o", out, "--dry-run"},
+        {"invrender", scene, "-o", out, "--dry-run", "--views", views},
+        {"convert", model, (work / "hall.obj").string()},
+        {"render", model, "--view", view, "--dry-run", "-o", (work / "s1.png").string()}}) {
+    const ProgramRun run = RunProgram(words);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("groundglass: warning: " + assumed)) << words[0];
+    std::vector<std::string> with_unit = words;
+    with_unit.insert(with_unit.end(), {"--unit", "ft"});
+    EXPECT_THAT(RunProgram(with_unit).err, testing::Not(HasSubstr("ASSUMED"))) << words[0];
+  }
+  // A wall of 10 m, 5,820 km north, in steps of half a metre.
+  WriteAll(work / "floats.obj",
+           "# unit: m\nv 0 5820077 0\nv 10 5820077.5 0\nv 10 5820078.5 6\nv 0 5820079 6\n"
+           "f 1 2 3\nf 1 3 4\n");
+  for (const char* command : {"invrender", "register"}) {
+    const ProgramRun run = RunProgram({command,
+                                       scene,
+                                       "-o",
+                                       out,
+                                       "--dry-run",
+                                       "--views",
+                                       views,
+                                       "--model",
+                                       (work / "floats.obj").string()});
+    EXPECT_THAT(run.err, HasSubstr("lie on a raster of 0.5 m")) << command;
+  }
+}
+
 TEST(Render, AModelWithoutItsPictureIsGreyAndSaysSo) {
   const TemporaryFolder work;
   const fs::path source = fs::path(GROUNDGLASS_SOURCE_DIR) / "tests/data/models/mtl with blanks";
