@@ -6,12 +6,35 @@
 #include "scene/text.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace groundglass {
 namespace {
 
 bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// Error where it is a photograph that is there, and lacks nothing but a tag.
+void RefuseUntagged(const Scene& scene, const std::string& name, const std::string& place) {
+  std::vector<PhotographName> untagged;
+  for (const std::filesystem::path& image : scene.untagged_images) {
+    untagged.push_back({image.stem().string(), image.filename().string()});
+  }
+  const auto matches = MatchPhotographs(std::vector<std::string>{name}, untagged);
+  if (!matches[0]) return;
+  const std::filesystem::path& image = scene.untagged_images[*matches[0]];
+  std::string remedy;
+  if (std::filesystem::exists(scene.folder / "tags.csv") &&
+      !std::filesystem::is_directory(scene.folder / "views")) {
+    remedy = "add a row for it to " + (scene.folder / "tags.csv").string();
+  } else {
+    remedy = "write views/" + image.stem().string() + ".view (groundglass check " +
+             scene.folder.string() + " --template lays one out, to be filled in)";
+  }
+  throw Error(place + ": the photograph " + image.filename().string() + " has no tag; " + remedy);
 }
 
 }  // namespace
@@ -41,6 +64,7 @@ std::vector<std::string> FindPhotographNames(const Scene& scene,
     } catch (const Error& error) {
       throw Error(place + ": " + error.what());
     }
+    if (!index) RefuseUntagged(scene, name, place);
     if (!index) {
       std::string all;
       for (const PhotographName& photograph : known) {

@@ -80,6 +80,26 @@ TEST(ByHand, NamesThatTheSceneDoesNotHaveAreErrors) {
   EXPECT_FALSE(fs::exists(work / "out"));
 }
 
+TEST(ByHand, APhotographWithoutATagIsNotCalledMissing) {
+  const TemporaryFolder work;
+  CopyBrick(work / "scene", {"s1", "s2"});
+  fs::remove(work / "scene/views/s2.view");
+  WriteAll(work / "a.points", "s2 1 2 3 4 5 2\ns2 2 3 4 5 6 2\ns2 3 4 5 6 8 2\n");
+  const std::string points = (work / "a.points").string();
+  const ProgramRun run = RunProgram({"register",
+                                     (work / "scene").string(),
+                                     "-o",
+                                     (work / "out").string(),
+                                     "--points",
+                                     points,
+                                     "--quiet"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(
+      run.err,
+      HasSubstr(points + ": the photograph s2.jpg has no tag; write views/s2.view (groundglass "
+                         "check "));
+}
+
 TEST(ByHand, PointsJoinAndTheirFileIsInTheManifest) {
   const TemporaryFolder work;
   CopyBrick(work / "scene", {"s1"});
