@@ -43,6 +43,16 @@ DrawingLayers::FaceMap DrawingLayers::MakeFaceMap(const OrthographicView& view, 
                       -p * plane.normal_in_world.dot(view.down_in_world),
                       plane.offset - plane.normal_in_world.dot(view.corner_in_world)) /
       facing;
+  map.nearest = std::numeric_limits<double>::max();
+  map.farthest = std::numeric_limits<double>::lowest();
+  for (const int point : model.faces[face].points) {
+    const double depth = (model.points_in_world[point] - view.corner_in_world).dot(forward);
+    map.nearest = std::min(map.nearest, depth);
+    map.farthest = std::max(map.farthest, depth);
+  }
+  // Nothing is drawn that lies nearer or farther.
+  map.nearest = std::clamp(map.nearest, view.near_depth, view.far_depth);
+  map.farthest = std::clamp(map.farthest, view.near_depth, view.far_depth);
   if (textured_.faces.empty() || textured_.faces[face].page < 0) return map;
   const std::vector<Eigen::Vector2d>& texels = textured_.faces[face].corners_texel;
   Eigen::MatrixX3d in_view(texels.size(), 3);
@@ -116,7 +126,10 @@ ImageF DrawingLayers::Heights(int first_row, int num_rows) const {
   const double metres = MetresPerUnit(textured_.model.unit);
   return Fill<float>(
       first_row, num_rows, kNothing, [&](int, const FaceMap& map, const Eigen::Vector2d& image_px) {
-        return static_cast<float>(-metres * map.depth_from_px.dot(image_px.homogeneous()));
+        // A steep face that is not quite flat leaves its best plane by a little across the view,
+        // and so by much along it.
+        const double depth = map.depth_from_px.dot(image_px.homogeneous());
+        return static_cast<float>(-metres * std::clamp(depth, map.nearest, map.farthest));
       });
 }
 

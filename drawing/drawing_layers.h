@@ -32,6 +32,8 @@ class DrawingLayers {
   struct FaceMap {
     bool is_seen = false;
     Eigen::Vector3d depth_from_px = Eigen::Vector3d::Zero();  // times (x, y, 1), model's unit
+    double nearest = 0;                                       // of its corners
+    double farthest = 0;
     int page = -1;
     Eigen::Matrix<double, 2, 3> texel_from_px = Eigen::Matrix<double, 2, 3>::Zero();
   };

@@ -215,6 +215,22 @@ TEST(MakeSection, OutsideOfTheModelNothingIsCut) {
   EXPECT_FALSE(CutsModel(box, MakePlan(box, 3)));
 }
 
+// A wall that leans by a hand, and not evenly, seen from above: its best plane is as steep, and
+// beside its foot or its top it lies far below or above the wall.
+TEST(AssessDrawing, NothingLiesFartherBehindThanTheModelReaches) {
+  TexturedModel wall;
+  wall.model.unit = LengthUnit::kMetre;
+  wall.model.points_in_world = {{0, 0, 0}, {10, 0, 0}, {10, 0.4, 3}, {0, 0.1, 3}};
+  wall.model.faces = {{{0, 1, 2, 3}, "wall"}};
+  wall.faces.resize(1);
+  Renderer renderer(wall);
+  const Drawing drawing = MakePlan(wall.model, 4);
+  const DrawingAccuracy accuracy = AssessDrawing(renderer, wall, drawing, {}, 50, 0.005);
+  EXPECT_LE(accuracy.most_behind_m, 4 + 1e-6);
+  EXPECT_GT(accuracy.most_behind_m, 3.5);
+  EXPECT_EQ(accuracy.most_before_m, 0);
+}
+
 TEST(AssessDrawing, CountsTexelsThatNoPhotographShows) {
   const TexturedModel wall = MakeWall(2, 1, MakePlainPage(4, 2, 90, 90, 90));
   DrawingSources sources;
