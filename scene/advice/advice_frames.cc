@@ -136,6 +136,26 @@ const Photograph* FindWholeFrame(const Scene& scene, const Photograph& cropped) 
   return found;
 }
 
+// What was cut off on one side moves the middle of the picture off the middle of the frame.
+std::string ShiftOfACrop(const ImageSize& cropped, const ImageSize& whole) {
+  const auto shift = [&](int whole_px, int left_px) {
+    return FormatNumber(std::round(1000 * (whole_px - left_px) / 2.0 / cropped.width) / 1000);
+  };
+  std::string remedy = "; if it was cut more on one side, ";
+  const bool is_narrower = whole.width > cropped.width;
+  const bool is_lower = whole.height > cropped.height;
+  if (is_narrower) {
+    const std::string most = shift(whole.width, cropped.width);
+    remedy += "shift_x too, from -" + most + " (all of it on the left) to " + most;
+  }
+  if (is_lower) {
+    const std::string most = shift(whole.height, cropped.height);
+    remedy += std::string(is_narrower ? ", and " : "") + "shift_y" + (is_narrower ? "" : " too") +
+              ", from -" + most + " (all of it at the top) to " + most;
+  }
+  return remedy + ", or a larger sigma_shift";
+}
+
 void AdviseOnCrop(const AdviceContext& context, const Photograph& photograph) {
   const double pixel_shape = *CommonPixelShape(context.scene, photograph);
   const auto pixels = [](const Photograph& one) {
@@ -158,8 +178,11 @@ void AdviseOnCrop(const AdviceContext& context, const Photograph& photograph) {
               " and not made smaller, v " +
               FormatNumber(std::round(10 * DegreesFromRadians(2 * std::atan(half))) / 10) +
               ", or put the whole picture there";
+    remedy += ShiftOfACrop(photograph.size, whole->size);
   } else {
-    remedy += " and in v the angle across what is left, or put the whole picture there";
+    remedy +=
+        " and in v the angle across what is left, or put the whole picture there; if it was "
+        "cut more on one side, shift_x and shift_y too, or a larger sigma_shift";
   }
   context.Add(Advice::Severity::kDetail, TagPlace(context.scene, photograph), message, remedy);
 }

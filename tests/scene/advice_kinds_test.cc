@@ -190,7 +190,10 @@ TEST(FindOddities, ACropWithTheWholeFramesAspect) {
   EXPECT_THAT(told[0],
               AllOf(HasSubstr("does not suit " + std::to_string(cropped.size.width) + " x "),
                     HasSubstr("for square pixels): a crop?"),
-                    HasSubstr("v " + FormatNumber(std::round(10 * left) / 10))));
+                    HasSubstr("v " + FormatNumber(std::round(10 * left) / 10)),
+                    // An eighth of the whole, of three quarters.
+                    HasSubstr("shift_x too, from -0.167 (all of it on the left) to 0.167, or a "
+                              "larger sigma_shift")));
   // With its own it is in order.
   cropped.tag.aspect *= 0.75;
   cropped.tag.view_angle_deg = left;
