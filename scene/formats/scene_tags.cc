@@ -6,6 +6,7 @@
 #include "scene/formats/tags_csv.h"
 #include "scene/formats/view_io.h"
 #include "scene/formats/view_pairs.h"
+#include "scene/text.h"
 
 #include <algorithm>
 #include <string_view>
@@ -93,8 +94,7 @@ void SceneReader::ReadTable(const fs::path& table, const FilesByStem& images) {
     std::vector<std::string>& warnings = result_.scene.warnings;
     warnings.insert(warnings.end(), rows.warnings.begin(), rows.warnings.end());
     for (const TagRow& row : rows.rows) {
-      FoundTag found{row.tag, {}, {}, row.line};
-      if (!row.text.empty()) found.text = row.text;
+      const FoundTag found{row.tag, {}, row.text, row.line};
       if (IsNoTag(row.name, images, found)) {
         warnings.push_back(Error(table,
                                  row.line,
@@ -103,7 +103,7 @@ void SceneReader::ReadTable(const fs::path& table, const FilesByStem& images) {
                                .what());
         continue;
       }
-      tags_[row.name] = std::move(found);
+      tags_[row.name] = found;
       known_names_[row.name] = table;
     }
     for (const TagTable::RowFault& fault : rows.row_faults) {
@@ -137,6 +137,12 @@ std::vector<std::string> SceneReader::FaultsOfText(const std::string& name,
                                                    const FoundTag& found,
                                                    const std::string& text) const {
   if (found.line == 0) return FindViewFaults(text, found.view_file);
+  if (TrimBlanks(text).empty()) {
+    return {Error(folder_ / "tags.csv",
+                  found.line,
+                  name + ": the line gives no number; expected x, y, z, i, j, k, a and v")
+                .what()};
+  }
   std::vector<std::string> faults;
   for (const std::string& fault : FindViewFaults(text, "")) {
     const std::string message = fault.substr(fault.find(": ") + 2);

@@ -190,6 +190,13 @@ class TableReader {
                const std::vector<std::string>& fields,
                TagRow& row,
                const Fail& fail) {
+    const bool has_numbers = std::any_of(columns_.begin(), columns_.end(), [&](const auto& column) {
+      return column.first != "image" && column.first != "camera" && !fields[column.second].empty();
+    });
+    if (!has_numbers) {
+      row.text = "";
+      return;
+    }
     bool is_sound = true;
     const auto number = [&](const std::string& column) {
       const std::string& field = fields[columns_.at(column)];

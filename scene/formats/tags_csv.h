@@ -6,6 +6,7 @@
 #include "scene/view_tag.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,9 @@ struct TagRow {
   std::string name;
   int line = 0;
   ViewTag tag;
-  std::string text;  // the same as a view file's, where `a` or `v` is empty: the picture's metadata
-                     // may tell
+  // The same as a view file's, where `a` or `v` is empty: the picture's metadata may tell. Without
+  // any number where the row has none.
+  std::optional<std::string> text;
 };
 
 // What could be read of a tags.csv, and one line for each fault.

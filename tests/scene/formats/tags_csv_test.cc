@@ -175,6 +175,23 @@ TEST(TagTable, FaultsComeInTheOrderOfLinesWithTheirPhotographs) {
   EXPECT_EQ(of_the_sum, 1);
 }
 
+TEST(TagTable, ALineWithoutANumberIsNoTag) {
+  const std::string good = "s10;5;20;2;5;0;2;1,5;40;\n";
+  for (const std::string header :
+       {"image;x;y;z;i;j;k;a;v;remarks\n", "image;x;y;z;yaw;pitch;roll;a;v;remarks\n"}) {
+    const TableFolder folder(header + good + "Sum;;;;;;;;;7 slides\n");
+    const SceneCheck check = CheckScene(folder.path());
+    EXPECT_THAT(check.faults, IsEmpty()) << header;
+    EXPECT_THAT(check.scene.warnings,
+                Contains(HasSubstr("tags.csv:3: left out: there is no photograph 'Sum'")));
+    EXPECT_THAT(check.scene.warnings, testing::Not(Contains(HasSubstr("tag of Sum"))));
+  }
+  // A photograph's own empty line is no camera at the origin.
+  const TableFolder folder("image;x;y;z;i;j;k;a;v;remarks\n" + good + "s2;;;;;;;;;later\n");
+  EXPECT_THAT(CheckScene(folder.path()).faults,
+              Contains(HasSubstr("tags.csv:3: s2: the line gives no number; expected x, y")));
+}
+
 TEST(TagTable, WhatALineLacksIsToldWithItsNumber) {
   const TableFolder folder("image,x,y,z,i,j,k,a,v\ns10,5,20,2,5,0,2,1.5,40\ns2,5,20,2,5,,2,1.5,\n");
   EXPECT_THAT(CheckScene(folder.path()).faults,
