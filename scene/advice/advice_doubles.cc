@@ -4,38 +4,19 @@
 #include "scene/advice/advice_parts.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
-#include "scene/formats/view_io.h"
+#include "scene/formats/same_picture.h"
 #include "scene/reduce.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace groundglass {
 namespace {
-
-// What tells two files apart without reading them whole: scans without compression are large, and
-// all of one length.
-std::string SampleOf(const std::filesystem::path& file) {
-  constexpr std::streamoff kSampleBytes = 16384;
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) return "";  // told by those who read it for its own sake
-  const auto length = static_cast<std::streamoff>(in.tellg());
-  std::string sample = std::to_string(length) + ' ';
-  std::string bytes(kSampleBytes, '\0');
-  for (const std::streamoff at : {length / 3, 2 * length / 3}) {
-    in.clear();
-    in.seekg(at);
-    in.read(bytes.data(), kSampleBytes);
-    sample.append(bytes, 0, static_cast<size_t>(in.gcount()));
-  }
-  return sample;
-}
 
 std::array<double, 6> NumbersOf(const ViewTag& tag) {
   const Eigen::Vector3d& position = tag.position_in_site;
@@ -79,10 +60,10 @@ void AdviseOnDoubles(const AdviceContext& context) {
   std::map<std::array<double, 6>, const Photograph*> first_with_numbers;
   for (const Photograph& later : context.scene.photographs) {
     const std::string sample = SampleOf(later.image_file);
-    if (sample.empty()) continue;
+    if (sample.empty()) continue;  // told by those who read it for its own sake
     std::vector<const Photograph*>& alike = by_sample[sample];
     const auto same_file = std::find_if(alike.begin(), alike.end(), [&](const auto* earlier) {
-      return ReadFileBytes(earlier->image_file) == ReadFileBytes(later.image_file);
+      return IsSamePicture(earlier->image_file, later.image_file);
     });
     const Photograph* first =
         first_with_numbers.emplace(NumbersOf(later.tag), &later).first->second;

@@ -7,6 +7,7 @@
 #include "scene/formats/image_kind.h"
 #include "scene/formats/image_paths.h"
 #include "scene/formats/photograph_name.h"
+#include "scene/formats/same_picture.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/text_encoding.h"
 #include "scene/formats/view_io.h"
@@ -167,6 +168,27 @@ std::string SceneReader::NameInUtf8(const fs::path& file, const std::string& nam
   return utf8.text;
 }
 
+void SceneReader::TellUntagged(const std::string& name,
+                               const FilesByStem& images,
+                               const std::map<std::string, fs::path>& image_of_tag) {
+  const fs::path& image = images.at(name);
+  const auto same = std::find_if(image_of_tag.begin(), image_of_tag.end(), [&](const auto& tagged) {
+    return IsSamePicture(tagged.second, image);
+  });
+  // A copy that somebody left there needs no tag of its own.
+  if (same != image_of_tag.end()) {
+    Warn(image,
+         "photograph without a tag; it is the very same picture as " +
+             same->second.filename().string() +
+             ", which has one: take it out, or put the picture here that was meant");
+    return;
+  }
+  const std::string expected =
+      tags_place_.empty() ? "views/" + name + ".view" : tags_place_ + " for " + name;
+  result_.scene.untagged_images.push_back(image);
+  Warn(image, "photograph without a tag; expected " + expected);
+}
+
 void SceneReader::Match(const FilesByStem& images) {
   std::vector<std::string> tag_names;
   for (const auto& [name, file] : known_names_) tag_names.push_back(name);
@@ -186,11 +208,8 @@ void SceneReader::Match(const FilesByStem& images) {
       continue;
     }
     left.push_back(image_names[i]);
-    const std::string expected =
-        tags_place_.empty() ? "views/" + name + ".view" : tags_place_ + " for " + name;
-    result_.scene.untagged_images.push_back(images.at(name));
-    Warn(images.at(name), "photograph without a tag; expected " + expected);
   }
+  for (const PhotographName& image : left) TellUntagged(image.name, images, image_of_tag);
   for (const auto& [name, file] : known_names_) {
     if (image_of_tag.count(name) > 0) continue;
     if (const auto tag = tags_.find(name); tag != tags_.end() && tag->second.text) {

@@ -86,6 +86,10 @@ class SceneReader {
   void Match(const FilesByStem& images);
   // What a view file's text lacks, with the tag's place: the view file, or the table's line.
   std::vector<std::string> FaultsOfText(const std::string& name,
+  // A photograph that no tag is there for; image_of_tag: those of the tags.
+  void TellUntagged(const std::string& name,
+                    const FilesByStem& images,
+                    const std::map<std::string, std::filesystem::path>& image_of_tag);
                                         const FoundTag& found,
                                         const std::string& text) const;
   // A line of the table that is of no photograph and gives no place: "Summe;3;;".

@@ -212,6 +212,18 @@ TEST(CheckScene, WarnsOfWhatDoesNotMatchAndSaysWhatWasExpected) {
   EXPECT_EQ(warnings.size(), 5u);
 }
 
+TEST(CheckScene, ACopyOfATaggedPictureNeedsNoTag) {
+  const SceneFolder folder;
+  // Another picture than the scene's other ones.
+  WriteSrgb8(folder / "images/s2.jpg", Image8(30, 20, 3, 77));
+  std::filesystem::copy_file(folder / "images/s2.jpg", folder / "images/copy.jpg");
+  const Scene scene = CheckScene(folder.path()).scene;
+  EXPECT_THAT(scene.warnings,
+              Contains(HasSubstr("images/copy.jpg: photograph without a tag; it is the very same "
+                                 "picture as s2.jpg, which has one")));
+  EXPECT_THAT(scene.untagged_images, IsEmpty());
+}
+
 TEST(CheckScene, WarnsOfATurnedPictureAndACameraWithItsBackToTheModel) {
   const SceneFolder folder;
   WriteSrgb8(folder / "images/s2.jpg", Image8(20, 30, 3, 128));
