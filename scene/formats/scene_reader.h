@@ -21,7 +21,9 @@ namespace groundglass {
 inline constexpr const char* kHowToBegin =
     "A tag says where the camera stood (x y z), the point that it looked at (i j k), the frame's "
     "width / height (a) and its horizontal view angle in degrees (v): groundglass check SCENE "
-    "--template writes one for each photograph, to be filled in; docs/tutorial.md tells how";
+    "--template writes one for each photograph, to be filled in; docs/tutorial.md tells how. "
+    "Cameras that are known already (a COLMAP model, a folder of .view files) need no tags: give "
+    "them to run, register or invrender with --views";
 
 // The plain files of a folder in natural order, hidden ones left out; none if there is no folder.
 std::vector<std::filesystem::path> ListFiles(const std::filesystem::path& folder);
@@ -84,12 +86,12 @@ class SceneReader {
   // The tags of a COLMAP model's cameras.
   void ReadGivenCameras(const ColmapFiles& files, const FilesByStem& images);
   void Match(const FilesByStem& images);
-  // What a view file's text lacks, with the tag's place: the view file, or the table's line.
-  std::vector<std::string> FaultsOfText(const std::string& name,
   // A photograph that no tag is there for; image_of_tag: those of the tags.
   void TellUntagged(const std::string& name,
                     const FilesByStem& images,
                     const std::map<std::string, std::filesystem::path>& image_of_tag);
+  // What a view file's text lacks, with the tag's place: the view file, or the table's line.
+  std::vector<std::string> FaultsOfText(const std::string& name,
                                         const FoundTag& found,
                                         const std::string& text) const;
   // A line of the table that is of no photograph and gives no place: "Summe;3;;".

@@ -212,7 +212,11 @@ TEST(Check, WritesTemplatesAndKnowsThatTheyAreNotFilledIn) {
   fs::remove_all(scene / "views");
   const ProgramRun untagged = RunProgram({"check", scene.string()});
   EXPECT_EQ(untagged.status, 1);
-  for (const char* part : {"no tags", "(x y z)", "--template", "docs/tutorial.md"}) {
+  for (const char* part : {"no tags",
+                           "(x y z)",
+                           "--template",
+                           "docs/tutorial.md",
+                           "run, register or invrender with --views"}) {
     EXPECT_THAT(untagged.out, HasSubstr(part));
   }
   const ProgramRun templates = RunProgram({"check", scene.string(), "--template"});
