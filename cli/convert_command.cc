@@ -5,8 +5,8 @@
 #include "cli/json_output.h"
 #include "cli/option_range.h"
 #include "cli/warnings_last.h"
-#include "scene/formats/colmap_io.h"
 #include "scene/error.h"
+#include "scene/formats/colmap_io.h"
 #include "scene/formats/convert.h"
 #include "scene/text.h"
 

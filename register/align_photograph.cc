@@ -254,7 +254,7 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
                  options);
   };
   alignment.aligned = align(reading, best, rival);
-  alignment.conflict = 
+  alignment.conflict =
       FindConflictOf(alignment.aligned, edge_model.moves_in_world, edge_model, options);
   if (registration.verdict == Verdict::kReview && rival.solution != nullptr) {
     const double best_as_rival =

@@ -91,8 +91,8 @@ DisplacedGroup Compare(DisplacedGroup displaced,
                        const DisplacedGroupOptions& options) {
   for (size_t i = 0; i < first.size(); ++i) {
     const double gain_nats = second[i].total_nats - first[i].total_nats;
-    displaced.gain_nats += std::clamp(
-        gain_nats, -options.most_nats_of_photograph, options.most_nats_of_photograph);
+    displaced.gain_nats +=
+        std::clamp(gain_nats, -options.most_nats_of_photograph, options.most_nats_of_photograph);
     if (gain_nats >= options.least_nats_of_photograph) ++displaced.num_photographs;
   }
   return displaced;
@@ -122,10 +122,9 @@ std::optional<int> FindCounterpart(int set,
   for (size_t other = 0; other < groups.sets.size(); ++other) {
     const EdgeGroupSet& still = groups.sets[other];
     if (still.across_in_world.dot(moved.across_in_world) < kLeastCosine) continue;
-    const bool is_apart =
-        std::none_of(still.groups.begin(), still.groups.end(), [&](int group) {
-          return std::find(moved.groups.begin(), moved.groups.end(), group) != moved.groups.end();
-        });
+    const bool is_apart = std::none_of(still.groups.begin(), still.groups.end(), [&](int group) {
+      return std::find(moved.groups.begin(), moved.groups.end(), group) != moved.groups.end();
+    });
     if (!is_apart) continue;
     const auto moves = MovesOfSet(still, groups);
     double shown = 0;

@@ -345,8 +345,7 @@ void JudgeTagsOfMembers(const RegisterOptions& options, LengthUnit unit, const P
       WithOverclaim(options.verdict, OverclaimOfSet(tags, options.overclaim));
   for (size_t i = 0; i < set.photographs.size(); ++i) {
     ApplyJudgement(
-        JudgeTag(
-            tags[i].parameters, *tags[i].written, set.photographs[i].slip, unit, verdict),
+        JudgeTag(tags[i].parameters, *tags[i].written, set.photographs[i].slip, unit, verdict),
         set.alignments[i]->registration);
   }
 }
@@ -379,7 +378,9 @@ std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
   for (PhotographAlignment& alignment : alignments) {
     if (alignment.registration.verdict != Verdict::kAccepted) continue;
     if (alignment.aligned.found.empty()) continue;
-    set.Add(alignment, alignment.aligned, NatsAlone(alignment.aligned, edge_model, options.solutions.score));
+    set.Add(alignment,
+            alignment.aligned,
+            NatsAlone(alignment.aligned, edge_model, options.solutions.score));
   }
   JointRefinement joint;
   std::vector<PhotographAlignment*> barred;

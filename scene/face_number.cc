@@ -116,8 +116,9 @@ std::string NameOfFace(const PolygonModel& model, int face) {
   const std::string& name = model.faces[face].name;
   const std::string number = "face " + std::to_string(FaceNumber(model, face));
   if (name.empty()) return number;
-  const auto num_alike = std::count_if(
-      model.faces.begin(), model.faces.end(), [&](const auto& other) { return other.name == name; });
+  const auto num_alike = std::count_if(model.faces.begin(),
+                                       model.faces.end(),
+                                       [&](const auto& other) { return other.name == name; });
   return num_alike == 1 ? name : name + " (" + number + ")";
 }
 

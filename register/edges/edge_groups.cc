@@ -181,12 +181,14 @@ EdgeGroups FindEdgeGroups(const PolygonModel& model,
     part.directions.col(1) = normal.cross(part.directions.col(0));
     groups.of_edge[i].push_back(part);
   }
-  groups.sets = FindSets(planes,
-                         LowestHeights(edges, groups.of_edge, static_cast<int>(groups.num_numbers.size())),
-                         tolerance,
-                         attached);
+  groups.sets =
+      FindSets(planes,
+               LowestHeights(edges, groups.of_edge, static_cast<int>(groups.num_numbers.size())),
+               tolerance,
+               attached);
   for (const auto& [plane, group] : drawing_of_plane) {
-    for (int number = 0; number < 2; ++number) groups.sets.push_back({{group}, {1}, number, Eigen::Vector3d::Zero()});
+    for (int number = 0; number < 2; ++number)
+      groups.sets.push_back({{group}, {1}, number, Eigen::Vector3d::Zero()});
   }
   return groups;
 }

@@ -27,22 +27,22 @@ struct EdgeGroupSet {
   std::vector<int> groups;
   std::vector<double> factors;  // how far each group goes where the set goes by one
   int number = 0;               // which of the groups' numbers
-  // Where upright planes of it go, unit length. Zero for others: those that lie so high or higher go
-  // up, and what is drawn onto a plane goes within it.
+  // Where upright planes of it go, unit length. Zero for others: those that lie so high or higher
+  // go up, and what is drawn onto a plane goes within it.
   Eigen::Vector3d across_in_world = Eigen::Vector3d::Zero();
 };
 
 struct EdgeGroups {
   std::vector<int> num_numbers;                     // of each group: 1 or 2
-  std::vector<EdgeGroupSet> sets;  // of models with 2000 planes at the most
+  std::vector<EdgeGroupSet> sets;                   // of models with 2000 planes at the most
   std::vector<std::vector<EdgeGroupPart>> of_edge;  // for each of the model's edges
 };
 
 // The groups that each edge belongs to: the planes of its faces, where it is the border of one face
 // also the plane across that face (walls without a roof still end at one level), and the drawing on
 // its plane if both its faces lie in it. An edge on the ground has no level of its own.
-// tolerance: how far planes may lie apart and still be one, and attached: parallel upright planes to
-// be off together, in the model's unit; on_ground: for each edge.
+// tolerance: how far planes may lie apart and still be one, and attached: parallel upright planes
+// to be off together, in the model's unit; on_ground: for each edge.
 EdgeGroups FindEdgeGroups(const PolygonModel& model,
                           const std::vector<ModelEdge>& edges,
                           const std::vector<bool>& on_ground,

@@ -115,11 +115,10 @@ std::vector<GroupProfile> FindGroupProfiles(const Solution& best,
     std::vector<Eigen::Vector3d> directions;
     for (const ScoreSample& sample : own_samples) directions.push_back(*moves[sample.edge]);
     GroupProfile profile{static_cast<int>(set), {}};
-    profile.gain_nats = ScoreMoved(
-        own_samples, directions, edge_model.sigma, projection, solutions.score, options);
-    const double others_nats =
-        ScoreAlignment(others, projection, evidence, solutions.score).nats -
-        0.5 * without.whitened.squaredNorm() - best.TotalScore();
+    profile.gain_nats =
+        ScoreMoved(own_samples, directions, edge_model.sigma, projection, solutions.score, options);
+    const double others_nats = ScoreAlignment(others, projection, evidence, solutions.score).nats -
+                               0.5 * without.whitened.squaredNorm() - best.TotalScore();
     for (double& nats : profile.gain_nats) nats += others_nats;
     profiles.push_back(std::move(profile));
   }

@@ -18,8 +18,8 @@ using ::testing::HasSubstr;
 
 // The entry of a profile that stands for an offset.
 size_t EntryAt(double offset_sigmas, const GroupProfileOptions& options) {
-  return static_cast<size_t>(std::lround((offset_sigmas + options.reach_sigmas) /
-                                         options.step_sigmas));
+  return static_cast<size_t>(
+      std::lround((offset_sigmas + options.reach_sigmas) / options.step_sigmas));
 }
 
 // A set whose planes are level or upright.
@@ -33,11 +33,8 @@ int SetOfKind(const EdgeModel& edge_model, bool is_upright) {
 
 // Photographs that would rather have a set elsewhere by so many nats each, and how much they say in
 // all.
-std::vector<PhotographAlignment> Alignments(int count,
-                                            int set,
-                                            double offset_sigmas,
-                                            double suspicion_nats,
-                                            double total_nats) {
+std::vector<PhotographAlignment> Alignments(
+    int count, int set, double offset_sigmas, double suspicion_nats, double total_nats) {
   const GroupProfileOptions options;
   std::vector<PhotographAlignment> alignments(count);
   for (PhotographAlignment& alignment : alignments) {
@@ -77,9 +74,9 @@ TEST_F(FindDisplacedGroupsTest, TakesASetToLieWherePhotographsFitMuchBetter) {
   EXPECT_EQ(alignments[0].total_nats, 150);
   const auto moves = MovesOfSet(edge_model.groups.sets[level_set], edge_model.groups);
   for (size_t edge = 0; edge < moves.size(); ++edge) {
-    const Eigen::Vector3d expected =
-        moves[edge] ? Eigen::Vector3d(displaced[0].offset_units * *moves[edge])
-                    : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    const Eigen::Vector3d expected = moves[edge]
+                                         ? Eigen::Vector3d(displaced[0].offset_units * *moves[edge])
+                                         : Eigen::Vector3d(Eigen::Vector3d::Zero());
     EXPECT_LT((edge_model.moves_in_world[edge] - expected).norm(), 1e-9) << edge;
   }
   EXPECT_THAT(DescribeDisplacedGroup(displaced[0], edge_model), HasSubstr("0.80 ft higher"));

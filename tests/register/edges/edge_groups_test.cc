@@ -35,7 +35,8 @@ void AddBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, PolygonMode
 }
 
 EdgeGroups GroupsOf(const PolygonModel& model, const std::vector<ModelEdge>& edges) {
-  return FindEdgeGroups(model, edges, std::vector<bool>(edges.size(), false), kTolerance, kAttached);
+  return FindEdgeGroups(
+      model, edges, std::vector<bool>(edges.size(), false), kTolerance, kAttached);
 }
 
 // What an edge does when the groups that move upright planes across x are moved by one.
@@ -186,7 +187,7 @@ TEST(EdgeGroupSets, WhatLiesHigherGoesWithTheEaves) {
 TEST(EdgeGroupSets, WhatStandsOutOfAWallGoesWithIt) {
   PolygonModel model;
   AddBox({0, 0, 0}, {10, 10, 5}, model);
-  AddBox({-1, 4, 0}, {0, 6, 4}, model);    // a buttress of the wall at x = 0
+  AddBox({-1, 4, 0}, {0, 6, 4}, model);     // a buttress of the wall at x = 0
   AddBox({-9, 20, 0}, {-4, 30, 5}, model);  // a neighbour, whose wall is 4 away
   const std::vector<ModelEdge> edges = FindModelEdges(model);
   const EdgeGroups groups = GroupsOf(model, edges);

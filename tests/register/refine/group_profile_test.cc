@@ -43,13 +43,11 @@ Best BestOfHouse(double higher) {
   const CameraPrior prior =
       MakeCameraPrior(tag, kPhotoWidth, kPhotoHeight, LengthUnit::kFoot, {}, {});
   const EdgeEvidence evidence(
-      PhotographModel(
-          HouseWithRaisedRoof(higher), prior.CameraAt(CameraParameters::Zero()), 2, 7),
+      PhotographModel(HouseWithRaisedRoof(higher), prior.CameraAt(CameraParameters::Zero()), 2, 7),
       {});
   const Solution best = SolveFrom({}, edge_model, evidence, prior, {}, {});
   Best of_all;
-  for (const GroupProfile& profile :
-       FindGroupProfiles(best, edge_model, evidence, prior, {}, {})) {
+  for (const GroupProfile& profile : FindGroupProfiles(best, edge_model, evidence, prior, {}, {})) {
     if (!edge_model.groups.sets[profile.set].across_in_world.isZero()) continue;
     const Best found = BestOf(profile);
     if (found.gain_nats > of_all.gain_nats) of_all = found;
