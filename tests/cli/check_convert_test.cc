@@ -97,7 +97,7 @@ TEST(Convert, TellsAFaceThatIsLeftOutAndCountsIt) {
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("box.obj:9: face 4 is left out: point 99 is outside 1 to 5"));
   EXPECT_THAT(run.out, HasSubstr("3 faces, 0 texture pages"));
-  EXPECT_THAT(run.out, HasSubstr("; 1 face left out: 4; 1 warning, see above"));
+  EXPECT_THAT(run.out, HasSubstr("; 1 face left out: 4; 2 warnings, see above"));
   const ProgramRun as_json =
       RunProgram({"convert", (work / "box.obj").string(), (work / "box.osu").string(), "--json"});
   EXPECT_EQ(json::parse(as_json.out)["faces_left_out"], json({4}));
