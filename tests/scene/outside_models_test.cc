@@ -195,10 +195,10 @@ TEST(OutsideModels, AMissingPictureOrLibraryMakesFacesGreyAndIsTold) {
   EXPECT_THAT(without_picture.warnings,
               ElementsAre(AllOf(HasSubstr("the picture 'photo of wall.jpg' is not there"),
                                 HasSubstr("its face is grey"))));
-  // Nor does it say its unit, which a textured model in metres depends on.
+  // Nor does it say its unit, on which a model in metres depends.
   EXPECT_THAT(ConvertModel(folder / "wall.obj", folder / "out.glb", {}).warnings,
               ElementsAre(HasSubstr("its face is grey"),
-                          HasSubstr("the unit, m, is ASSUMED: neither the file nor --unit")));
+                          HasSubstr("the unit, ft, is ASSUMED: neither the file nor --unit")));
   folder.Write("Photo of Wall.JPG", "no picture");
   EXPECT_THAT(ReadTexturedModel(folder / "wall.obj").warnings,
               ElementsAre(HasSubstr("its face is grey")));
