@@ -153,6 +153,18 @@ void CoverOtherWay(const std::vector<PhotographAlignment>& other_way,
   }
 }
 
+// Where a set goes as a whole, unit length; an edge of two planes goes where both go.
+Eigen::Vector3d DirectionOf(int number, const EdgeGroups& groups) {
+  const EdgeGroupSet& set = groups.sets[number];
+  if (!set.across_in_world.isZero()) return set.across_in_world;
+  const bool is_drawn_onto_a_plane = groups.num_numbers[set.groups.front()] == 2;
+  if (!is_drawn_onto_a_plane) return Eigen::Vector3d::UnitZ();
+  for (const auto& move : MovesOfSet(set, groups)) {
+    if (move) return *move;
+  }
+  return Eigen::Vector3d::Zero();
+}
+
 // "0.95 ft further north and 0.2 ft higher": without what is a tenth of it or less.
 std::string DescribeMove(const Eigen::Vector3d& move_in_world, LengthUnit unit) {
   constexpr std::array<std::array<const char*, 2>, 3> kWords = {
@@ -227,15 +239,9 @@ std::vector<DisplacedGroup> FindDisplacedGroups(
 
 std::string DescribeDisplacedGroup(const DisplacedGroup& displaced, const EdgeModel& edge_model) {
   const auto moves = MovesOfSet(edge_model.groups.sets[displaced.set], edge_model.groups);
-  Eigen::Vector3d move_in_world = Eigen::Vector3d::Zero();
   std::vector<std::string> names;
   for (size_t edge = 0; edge < moves.size(); ++edge) {
     if (!moves[edge]) continue;
-    // An edge that goes along with another plane as well goes further than its set.
-    const Eigen::Vector3d move = displaced.offset_units * *moves[edge];
-    if (move_in_world.isZero() || move.squaredNorm() < move_in_world.squaredNorm()) {
-      move_in_world = move;
-    }
     const std::string name = NameOfFace(edge_model.model, edge_model.edges[edge].first_face);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
@@ -251,7 +257,8 @@ std::string DescribeDisplacedGroup(const DisplacedGroup& displaced, const EdgeMo
       "there. Measure that again, and correct the model",
       displaced.num_photographs,
       whose,
-      DescribeMove(move_in_world, edge_model.model.unit));
+      DescribeMove(displaced.offset_units * DirectionOf(displaced.set, edge_model.groups),
+                   edge_model.model.unit));
 }
 
 }  // namespace groundglass

@@ -321,6 +321,7 @@ TEST(RegistrationOptions, CheckNamesEachFieldAndAsksEachPart) {
                                 solutions,
                                 readings,
                                 overclaim,
+                                displaced,
                                 ties,
                                 tie_support,
                                 joint,

@@ -44,11 +44,48 @@ TEST(ReadingOptions, CheckNamesEachField) {
 }
 
 TEST(OverclaimOptions, CheckNamesEachField) {
-  [[maybe_unused]] const auto& [least, most, photographs] = OverclaimOptions();
+  [[maybe_unused]] const auto& [least, most, photographs, least_of_set, photographs_of_set] =
+      OverclaimOptions();
   ExpectCheckNamesEach<OverclaimOptions>({
       {"least_overclaim", [](auto& o) { o.least_overclaim = 0.5; }},
       {"most_overclaim", [](auto& o) { o.most_overclaim = 0; }},
       {"least_photographs", [](auto& o) { o.least_photographs = 0; }},
+      {"least_overclaim_of_set", [](auto& o) { o.least_overclaim_of_set = 0; }},
+      {"least_photographs_of_set", [](auto& o) { o.least_photographs_of_set = 0; }},
+  });
+}
+
+TEST(DisplacedGroupOptions, CheckNamesEachField) {
+  [[maybe_unused]] const auto& [profile,
+                                offset,
+                                suspicion,
+                                photographs,
+                                trials,
+                                most,
+                                least,
+                                gain,
+                                doubtful] = DisplacedGroupOptions();
+  ExpectCheckNamesEach<DisplacedGroupOptions>({
+      {"profile.step_sigmas", [](auto& o) { o.profile.step_sigmas = 0; }},
+      {"least_offset_sigmas", [](auto& o) { o.least_offset_sigmas = -1; }},
+      {"least_suspicion_nats", [](auto& o) { o.least_suspicion_nats = -1; }},
+      {"least_photographs", [](auto& o) { o.least_photographs = 0; }},
+      {"most_trials", [](auto& o) { o.most_trials = -1; }},
+      {"most_nats_of_photograph", [](auto& o) { o.most_nats_of_photograph = 0; }},
+      {"least_nats_of_photograph", [](auto& o) { o.least_nats_of_photograph = -1; }},
+      {"least_gain_nats", [](auto& o) { o.least_gain_nats = -1; }},
+      {"doubtful_nats", [](auto& o) { o.doubtful_nats = 0; }},
+  });
+}
+
+TEST(GroupProfileOptions, CheckNamesEachField) {
+  [[maybe_unused]] const auto& [least, most, reach, step, spare] = GroupProfileOptions();
+  ExpectCheckNamesEach<GroupProfileOptions>({
+      {"least_share", [](auto& o) { o.least_share = -1; }},
+      {"most_share", [](auto& o) { o.most_share = 2; }},
+      {"reach_sigmas", [](auto& o) { o.reach_sigmas = 0; }},
+      {"step_sigmas", [](auto& o) { o.step_sigmas = 0; }},
+      {"spare_px", [](auto& o) { o.spare_px = -1; }},
   });
 }
 

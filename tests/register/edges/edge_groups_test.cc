@@ -105,7 +105,7 @@ TEST(FindEdgeGroups, BordersAtOneHeightAreOneLevel) {
     on_ground.push_back(edges[i].start_in_world.z() == 0 && edges[i].end_in_world.z() == 0);
     if (edges[i].start_in_world.z() == 3 && edges[i].end_in_world.z() == 3) tops.push_back(i);
   }
-  const EdgeGroups groups = FindEdgeGroups(model, edges, on_ground, kTolerance);
+  const EdgeGroups groups = FindEdgeGroups(model, edges, on_ground, kTolerance, kAttached);
   ASSERT_EQ(tops.size(), 2u);
   ASSERT_EQ(groups.of_edge[tops[0]].size(), 2u);
   ASSERT_EQ(groups.of_edge[tops[1]].size(), 2u);
@@ -187,8 +187,8 @@ TEST(EdgeGroupSets, WhatLiesHigherGoesWithTheEaves) {
 TEST(EdgeGroupSets, WhatStandsOutOfAWallGoesWithIt) {
   PolygonModel model;
   AddBox({0, 0, 0}, {10, 10, 5}, model);
-  AddBox({-1, 4, 0}, {0, 6, 4}, model);     // a buttress of the wall at x = 0
-  AddBox({-9, 20, 0}, {-4, 30, 5}, model);  // a neighbour, whose wall is 4 away
+  AddBox({-1, 4, 0}, {0, 6, 4}, model);      // a buttress of the wall at x = 0
+  AddBox({-12, 20, 0}, {-7, 30, 5}, model);  // a neighbour, whose wall is 6 away
   const std::vector<ModelEdge> edges = FindModelEdges(model);
   const EdgeGroups groups = GroupsOf(model, edges);
   int num_of_wall = 0;
@@ -197,7 +197,7 @@ TEST(EdgeGroupSets, WhatStandsOutOfAWallGoesWithIt) {
     const auto wall = MoveOfEdgeAt({0, 5, 5}, set, groups, edges);
     if (!wall) continue;
     const auto buttress = MoveOfEdgeAt({-1, 5, 4}, set, groups, edges);
-    const auto neighbour = MoveOfEdgeAt({-4, 25, 5}, set, groups, edges);
+    const auto neighbour = MoveOfEdgeAt({-7, 25, 5}, set, groups, edges);
     EXPECT_FALSE(neighbour);
     if (!buttress) continue;
     EXPECT_LT((*buttress - *wall).norm(), 1e-6);

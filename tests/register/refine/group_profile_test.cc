@@ -69,11 +69,5 @@ TEST(FindGroupProfiles, SaysLittleElsewhereOfAModelThatIsRight) {
       << right.offset_sigmas << " sigmas, " << right.gain_nats << " nats";
 }
 
-TEST(FindGroupProfiles, OptionsOutOfRangeAreNamed) {
-  GroupProfileOptions options;
-  options.step_sigmas = 0;
-  EXPECT_ANY_THROW(options.Check());
-}
-
 }  // namespace
 }  // namespace groundglass
