@@ -113,7 +113,7 @@ std::vector<double> CountSamples(const std::vector<PhotographAlignment>& alignme
 std::optional<int> FindCounterpart(int set,
                                    const EdgeGroups& groups,
                                    const std::vector<PhotographAlignment>& alignments) {
-  constexpr double kLeastCosine = 0.9998;
+  constexpr double kParallelCosine = 0.9998;
   const EdgeGroupSet& moved = groups.sets[set];
   if (moved.across_in_world.isZero()) return std::nullopt;
   const std::vector<double> counts = CountSamples(alignments, groups.of_edge.size());
@@ -121,7 +121,7 @@ std::optional<int> FindCounterpart(int set,
   double most = 0;
   for (size_t other = 0; other < groups.sets.size(); ++other) {
     const EdgeGroupSet& still = groups.sets[other];
-    if (still.across_in_world.dot(moved.across_in_world) < kLeastCosine) continue;
+    if (still.across_in_world.dot(moved.across_in_world) < kParallelCosine) continue;
     const bool is_apart = std::none_of(still.groups.begin(), still.groups.end(), [&](int group) {
       return std::find(moved.groups.begin(), moved.groups.end(), group) != moved.groups.end();
     });
