@@ -172,10 +172,11 @@ void SceneReader::TellUntagged(const std::string& name,
                                const FilesByStem& images,
                                const std::map<std::string, fs::path>& image_of_tag) {
   const fs::path& image = images.at(name);
+  result_.scene.untagged_images.push_back(image);
   const auto same = std::find_if(image_of_tag.begin(), image_of_tag.end(), [&](const auto& tagged) {
     return IsSamePicture(tagged.second, image);
   });
-  // A copy that somebody left there needs no tag of its own.
+  // A copy that somebody left there wants no tag, but taking out.
   if (same != image_of_tag.end()) {
     Warn(image,
          "photograph without a tag; it is the very same picture as " +
@@ -185,7 +186,6 @@ void SceneReader::TellUntagged(const std::string& name,
   }
   const std::string expected =
       tags_place_.empty() ? "views/" + name + ".view" : tags_place_ + " for " + name;
-  result_.scene.untagged_images.push_back(image);
   Warn(image, "photograph without a tag; expected " + expected);
 }
 
