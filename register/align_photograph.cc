@@ -235,7 +235,7 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   if (!points.empty()) return alignment;
   alignment.total_nats = best.TotalScore() + reading.log_probability;
   if (!HasCorrection(registration.verdict)) return alignment;
-  if (!options.independent) {
+  if (photograph.asks_for_groups) {
     alignment.group_profiles = FindGroupProfiles(
         best, edge_model, evidence, reading.prior, options.solutions, options.displaced.profile);
   }

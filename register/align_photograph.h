@@ -24,6 +24,9 @@ struct PhotographInput {
   ViewTag measured;
   std::optional<Lens> lens;
   std::vector<NamedTag> other_tags = {};  // of the scene's other photographs
+  // Whether it is asked for groups of edges elsewhere (FindDisplacedGroups), which takes a third
+  // longer.
+  bool asks_for_groups = false;
 };
 
 // A photograph that was aligned by itself, with what refining it together with others needs. Its
@@ -37,7 +40,7 @@ struct PhotographAlignment {
   std::optional<AlignedPhotograph> second_best = {};
   // What edges, tag and reading say for its best camera in all, nats; 0 where nothing was found.
   double total_nats = 0;
-  // How it would suit groups of edges elsewhere; not of one that was rejected.
+  // How it would suit groups of edges elsewhere, if that was asked; not of one that was rejected.
   std::vector<GroupProfile> group_profiles = {};
   // Whether edges alone tell its camera from all others, with its tag as it was written.
   bool is_clear = false;

@@ -82,7 +82,8 @@ PhotographAlignment AlignOrSayWhyNot(const Scene& scene,
                         {},
                         photograph.tag,
                         LensOf(photograph, lens),
-                        OtherTags(scene, photograph)};
+                        OtherTags(scene, photograph),
+                        !options.independent && options.displaced.most_trials > 0};
   try {
     input.grey8 = ReadGrey8(photograph.image_file);
     if (photograph.mask_file) input.ignore = ReadIgnoreMask(*photograph.mask_file, photograph.size);
