@@ -34,7 +34,7 @@ void AddElevationOptions(CLI::App* command, ElevationArguments& arguments);
 // from, which tells of photographs; empty if it is from elsewhere. out: the first file.
 int RenderElevations(const ElevationArguments& arguments,
                      const CommonOptions& common,
-                     TexturedModel textured,
+                     const TexturedModel& textured,
                      const std::filesystem::path& folder,
                      const std::filesystem::path& out,
                      const std::vector<std::string>& warnings);

@@ -50,7 +50,7 @@ void AddSynthCommand(CLI::App& app, int&) { AddLeftOutCommand(app, "synth", kSyn
 
 int RenderElevations(const ElevationArguments&,
                      const CommonOptions&,
-                     TexturedModel,
+                     const TexturedModel&,
                      const fs::path&,
                      const fs::path&,
                      const std::vector<std::string>&) {

@@ -252,7 +252,7 @@ int RenderToScale(const RenderArguments& arguments) {
   TexturedModelReading reading = ReadModelToRender(arguments);
   return RenderElevations(arguments.elevation,
                           arguments.common,
-                          std::move(reading.textured),
+                          reading.textured,
                           fs::is_directory(arguments.model) ? arguments.model : fs::path(),
                           arguments.out,
                           reading.warnings);

@@ -176,7 +176,7 @@ nlohmann::ordered_json PlannedJson(const Drawing& drawing, const DrawingGrid& gr
 
 int RenderElevations(const ElevationArguments& arguments,
                      const CommonOptions& common,
-                     TexturedModel textured,
+                     const TexturedModel& textured,
                      const fs::path& folder,
                      const fs::path& out,
                      const std::vector<std::string>& warnings) {
