@@ -33,7 +33,8 @@ if [[ ! -f build/release/build.ninja ]]; then  # else as test.sh left it
   cmake --log-level=WARNING --preset release "${launcher[@]}" \
     -DGROUNDGLASS_EVERY_COMMAND=OFF -DGROUNDGLASS_TESTS=OFF -DGROUNDGLASS_BENCH=OFF
 fi
-cmake --build --preset release --target groundglass
+# One compiler for each core: more at once take longer, and more of the processor.
+cmake --build --preset release --target groundglass --parallel "$(nproc)"
 groundglass=build/release/cli/groundglass
 
 echo "== Correcting the tags and baking the texture"

@@ -55,7 +55,7 @@ configure_and_build() {
   if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   echo "== Configuring and building ($1)"
   cmake --log-level=WARNING --preset "$1" "${launcher[@]}"
-  cmake --build --preset "$1" ${2:+--target "$2"}
+  cmake --build --preset "$1" --parallel "$(nproc)" ${2:+--target "$2"}
 }
 
 if [[ $preset == tidy ]]; then
