@@ -122,8 +122,8 @@ AlignedPhotograph Align(const TagReading& reading,
   aligned.conflict_samples = score_samples(options.joint.start_range_px +
                                            ConflictReachPx(size.width_px, options.conflict));
   // From here on as the model draws them.
-  aligned.score_samples = WithEdgesMovedBack(aligned.score_samples, edge_moves_in_world);
-  aligned.conflict_samples = WithEdgesMovedBack(aligned.conflict_samples, edge_moves_in_world);
+  aligned.score_samples = WithEdgesMoved(aligned.score_samples, edge_moves_in_world, -1);
+  aligned.conflict_samples = WithEdgesMoved(aligned.conflict_samples, edge_moves_in_world, -1);
   if (!edge_moves_in_world.empty()) {
     for (CandidateSample& found : aligned.found) {
       found.sample.point_in_world -= edge_moves_in_world[found.sample.edge];

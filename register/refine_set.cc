@@ -2,20 +2,16 @@
 // Part of Groundglass.
 #include "register/refine_set.h"
 
-#include "register/best_elsewhere.h"
-#include "register/fill_registration.h"
+#include "register/judge_members.h"
 #include "register/keep_joint.h"
-#include "register/notebook_overclaim.h"
-#include "register/shared_conflict.h"
+#include "register/photograph_set.h"
 #include "register/surveyed_tags_in_set.h"
 #include "register/ties/find_ties.h"
 #include "scene/error.h"
-#include "scene/least_norm.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -31,42 +27,6 @@ LensKey LensKeyOf(const Registration& registration) {
   const int shape = 1000 * registration.width_px / registration.height_px;
   if (!tag.camera.empty()) return {tag.camera, shape, 0, 0, 0};
   return {"", registration.width_px, registration.height_px, tag.view_angle_deg, tag.aspect};
-}
-
-// The photographs that are refined together.
-struct PhotographSet {
-  std::vector<PhotographAlignment*> alignments;
-  std::vector<AlignedPhotograph> photographs;
-  std::vector<CameraAlone> alone;  // the camera that each started with
-  // How far the common solution has found groups of edges from where the model has them.
-  std::vector<Eigen::Vector3d> edge_moves_in_world;
-
-  bool Holds(const PhotographAlignment& alignment) const {
-    return std::find(alignments.begin(), alignments.end(), &alignment) != alignments.end();
-  }
-  void Add(PhotographAlignment& alignment, const AlignedPhotograph& photograph, double nats) {
-    alignments.push_back(&alignment);
-    photographs.push_back(photograph);
-    alone.push_back({photograph.whitened, nats});
-  }
-  void TakeOut(size_t i) {
-    const auto at = static_cast<std::ptrdiff_t>(i);
-    alignments.erase(alignments.begin() + at);
-    photographs.erase(photographs.begin() + at);
-    alone.erase(alone.begin() + at);
-  }
-};
-
-TieView ViewOf(const AlignedPhotograph& photograph) {
-  return {photograph.picture.get(),
-          photograph.prior.CameraAt(photograph.whitened),
-          photograph.followed};
-}
-
-std::vector<TieView> ViewsOf(const std::vector<AlignedPhotograph>& photographs) {
-  std::vector<TieView> views;
-  for (const AlignedPhotograph& photograph : photographs) views.push_back(ViewOf(photograph));
-  return views;
 }
 
 std::vector<PhotographInSet> PlacesIn(const PhotographSet& set) {
@@ -143,42 +103,6 @@ JointRefinement Refine(const EdgeModel& edge_model,
   return joint;
 }
 
-// How much other photographs speak for a camera; `skip`: the photograph's own place among them.
-TieSupport SupportFor(const AlignedPhotograph& photograph,
-                      const std::vector<TieView>& others,
-                      std::optional<size_t> skip,
-                      const EdgeModel& edge_model,
-                      const RegisterOptions& options) {
-  std::vector<TieView> views = {ViewOf(photograph)};
-  for (size_t i = 0; i < others.size(); ++i) {
-    if (i != skip) views.push_back(others[i]);
-  }
-  const TiePoints ties =
-      FindTiesOf(0, edge_model.model, edge_model.visibility, views, options.ties);
-  return MeasureTieSupport(0, ties, views, edge_model.sigma, options.tie_support);
-}
-
-// edge_moves_in_world: where the model's edges are taken to be (none: as they are drawn).
-AlignmentScore ScoreOf(const AlignedPhotograph& photograph,
-                       const std::vector<Eigen::Vector3d>& edge_moves_in_world,
-                       const ScoreOptions& options) {
-  return ScoreFromSamples(WithEdgesMoved(photograph.score_samples, edge_moves_in_world),
-                          photograph.prior.ProjectionAt(photograph.whitened),
-                          options);
-}
-
-// What edges and the tag say for a camera, as far as that can be compared with its second-best one.
-double NatsFor(const AlignedPhotograph& photograph, const AlignmentScore& score) {
-  return score.nats - 0.5 * photograph.whitened.squaredNorm() + photograph.log_probability;
-}
-
-// With the model's edges where each photograph by itself took them to be.
-double NatsAlone(const AlignedPhotograph& photograph,
-                 const EdgeModel& edge_model,
-                 const ScoreOptions& options) {
-  return NatsFor(photograph, ScoreOf(photograph, edge_model.moves_in_world, options));
-}
-
 // Photographs that are not accepted by themselves join those that are where others show the same,
 // each with the camera, its best or its second-best one, that edges and ties together speak for.
 void JoinByTies(const EdgeModel& edge_model,
@@ -252,119 +176,6 @@ bool TakeOutWorsened(const RegisterOptions& options,
   return true;
 }
 
-// What edges and other photographs say for the camera that the set has found. It is scored as the
-// photograph's own solution was, by what that one saw.
-Evidence EvidenceFor(const AlignmentScore& score,
-                     const BestElsewhere& elsewhere,
-                     const TieSupport& support,
-                     const std::function<TieSupport(const CameraParameters&)>& support_elsewhere,
-                     const RegisterOptions& options) {
-  Evidence evidence;
-  evidence.score = score;
-  if (elsewhere.camera) {
-    evidence.margin_nats = elsewhere.lead_nats;
-    // Patches are compared through the other camera as well only where edges do not decide.
-    if (options.use_ties && *evidence.margin_nats < LeastMargin(evidence.score, options.verdict)) {
-      *evidence.margin_nats +=
-          CountedLead(support, support_elsewhere(*elsewhere.camera), options.tie_support);
-    }
-  }
-  evidence.tie_nats = CountedNats(support, options.tie_support);
-  return evidence;
-}
-
-void JudgeMember(size_t i,
-                 JointSolution solution,
-                 const PhotographSet& set,
-                 const std::vector<TieView>& views,
-                 const EdgeModel& edge_model,
-                 const RegisterOptions& options) {
-  const AlignedPhotograph& photograph = set.photographs[i];
-  Registration& registration = set.alignments[i]->registration;
-  TieSupport support;
-  if (options.use_ties) {
-    support = SupportFor(photograph, views, i, edge_model, options);
-    registration.ties = {support.num_tried, support.num_agreeing, support.nats};
-  }
-  const auto support_elsewhere = [&](const CameraParameters& whitened) {
-    AlignedPhotograph elsewhere = photograph;
-    elsewhere.whitened = whitened;
-    return SupportFor(elsewhere, views, i, edge_model, options);
-  };
-  std::vector<Eigen::Vector3d> points_in_world;
-  for (const CandidateSample& found : photograph.found) {
-    points_in_world.push_back(found.sample.point_in_world);
-  }
-  const AlignmentScore score =
-      ScoreOf(photograph, set.edge_moves_in_world, options.solutions.score);
-  const BestElsewhere elsewhere = FindBestElsewhere(photograph,
-                                                    NatsFor(photograph, score),
-                                                    set.alone[i],
-                                                    points_in_world,
-                                                    options.solutions.distinct_distance_px);
-  Evidence evidence = EvidenceFor(score, elsewhere, support, support_elsewhere, options);
-  evidence.second_best_distance_px =
-      elsewhere.distance_px * registration.width_px / photograph.prior.width_px;
-  if (elsewhere.camera) {
-    evidence.second_best = TagFromParameters(photograph.prior.ParametersAt(*elsewhere.camera),
-                                             photograph.prior.measured);
-  }
-  if (elsewhere.camera) {
-    CoverBoth(solution.whitened,
-              *elsewhere.camera,
-              elsewhere.distance_px * 640 / photograph.prior.width_px,
-              options.verdict,
-              evidence,
-              solution.covariance);
-  }
-  const Eigen::MatrixXd whitened_doubt = SolveLeastNorm(
-      photograph.prior.root, SolveLeastNorm(photograph.prior.root, photograph.doubt).transpose());
-  solution.covariance += whitened_doubt;
-  FillRegistration(solution, photograph.prior, edge_model.model, points_in_world, registration);
-  RecordEvidence(evidence, registration);
-  registration.verdict = Verdict::kAccepted;
-  registration.reasons.clear();
-  ApplyJudgement(JudgeFit(evidence, options.verdict), registration);
-  registration.undetermined =
-      FindUndetermined(registration.sigmas, photograph.written, options.verdict);
-  set.alignments[i]->conflict =
-      FindConflictOf(photograph, set.edge_moves_in_world, edge_model, options);
-}
-
-// How far each camera lies from its tag, beside how far those of the whole notebook do: what all of
-// its pages are wrong by is no blunder of one.
-void JudgeTagsOfMembers(const RegisterOptions& options, LengthUnit unit, const PhotographSet& set) {
-  std::vector<CorrectedTag> tags;
-  for (size_t i = 0; i < set.photographs.size(); ++i) {
-    const AlignedPhotograph& photograph = set.photographs[i];
-    tags.push_back({&photograph.written,
-                    photograph.prior.ParametersAt(photograph.whitened),
-                    &set.alignments[i]->registration.covariance});
-  }
-  const VerdictOptions verdict =
-      WithOverclaim(options.verdict, OverclaimOfSet(tags, options.overclaim));
-  for (size_t i = 0; i < set.photographs.size(); ++i) {
-    ApplyJudgement(
-        JudgeTag(tags[i].parameters, *tags[i].written, set.photographs[i].slip, unit, verdict),
-        set.alignments[i]->registration);
-  }
-}
-
-// What each shares with others, beside what these share with one another.
-void JudgeTiesOfMembers(const VerdictOptions& options, const PhotographSet& set) {
-  Registration::Ties all;
-  for (const PhotographAlignment* alignment : set.alignments) {
-    if (!alignment->registration.ties) continue;
-    all.num_tried += alignment->registration.ties->num_tried;
-    all.num_agreeing += alignment->registration.ties->num_agreeing;
-  }
-  for (PhotographAlignment* alignment : set.alignments) {
-    Registration& registration = alignment->registration;
-    if (!registration.ties) continue;
-    ApplyJudgement(JudgeTies(*registration.ties, all, options), registration);
-  }
-}
-
 }  // namespace
 
 std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
@@ -400,12 +211,7 @@ std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
   }
   if (set.photographs.size() < 2) return {};
   if (moved_tags != nullptr) *moved_tags = std::move(moved);
-  const std::vector<TieView> views = ViewsOf(set.photographs);
-  tbb::parallel_for(size_t{0}, set.photographs.size(), [&](size_t i) {
-    JudgeMember(i, joint.photographs[i], set, views, edge_model, options);
-  });
-  JudgeTagsOfMembers(options, edge_model.model.unit, set);
-  JudgeTiesOfMembers(options.verdict, set);
+  JudgeMembers(joint, edge_model, options, set);
   return joint.displacements;
 }
 

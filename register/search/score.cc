@@ -111,16 +111,12 @@ std::vector<ScoreSample> FindScoreSamples(const std::vector<EdgeSample>& samples
 }
 
 std::vector<ScoreSample> WithEdgesMoved(std::vector<ScoreSample> samples,
-                                        const std::vector<Eigen::Vector3d>& edge_moves_in_world) {
+                                        const std::vector<Eigen::Vector3d>& edge_moves_in_world,
+                                        double times) {
   if (edge_moves_in_world.empty()) return samples;
-  for (ScoreSample& sample : samples) sample.point_in_world += edge_moves_in_world[sample.edge];
-  return samples;
-}
-
-std::vector<ScoreSample> WithEdgesMovedBack(
-    std::vector<ScoreSample> samples, const std::vector<Eigen::Vector3d>& edge_moves_in_world) {
-  if (edge_moves_in_world.empty()) return samples;
-  for (ScoreSample& sample : samples) sample.point_in_world -= edge_moves_in_world[sample.edge];
+  for (ScoreSample& sample : samples) {
+    sample.point_in_world += times * edge_moves_in_world[sample.edge];
+  }
   return samples;
 }
 

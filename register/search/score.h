@@ -60,11 +60,10 @@ std::vector<ScoreSample> FindScoreSamples(const std::vector<EdgeSample>& samples
                                           double spare_px,
                                           const ScoreOptions& options);
 // The same samples where the model's edges are moved by so much: edge_moves_in_world of each, or of
-// none. Each is asked for along the same normals.
+// none; with -1 `times`, back. Each is asked for along the same normals.
 std::vector<ScoreSample> WithEdgesMoved(std::vector<ScoreSample> samples,
-                                        const std::vector<Eigen::Vector3d>& edge_moves_in_world);
-std::vector<ScoreSample> WithEdgesMovedBack(
-    std::vector<ScoreSample> samples, const std::vector<Eigen::Vector3d>& edge_moves_in_world);
+                                        const std::vector<Eigen::Vector3d>& edge_moves_in_world,
+                                        double times = 1);
 // What one edge says for a camera.
 struct EdgeScore {
   int edge = -1;
