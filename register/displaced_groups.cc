@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/displaced_groups.h"
 
+#include "register/fill_registration.h"
 #include "scene/face_number.h"
 #include "scene/length_unit.h"
 
@@ -69,6 +70,21 @@ std::vector<Suspicion> FindSuspicions(const std::vector<PhotographAlignment>& al
   return suspicions;
 }
 
+// Where all of the model's edges are taken to lie, as two forms of one thing.
+struct EdgePlaces {
+  std::vector<Eigen::Vector2d> group_offsets;
+  std::vector<Eigen::Vector3d> moves_in_world;
+};
+
+EdgePlaces PlacesIn(const EdgeModel& edge_model) {
+  return {edge_model.group_offsets, edge_model.moves_in_world};
+}
+
+void PutBack(const EdgePlaces& places, EdgeModel& edge_model) {
+  edge_model.group_offsets = places.group_offsets;
+  edge_model.moves_in_world = places.moves_in_world;
+}
+
 // edge_model with a set of groups moved further.
 void MoveSet(int set, double offset_units, EdgeModel& edge_model) {
   const EdgeGroups& groups = edge_model.groups;
@@ -90,6 +106,11 @@ DisplacedGroup Compare(DisplacedGroup displaced,
                        const std::vector<PhotographAlignment>& second,
                        const DisplacedGroupOptions& options) {
   for (size_t i = 0; i < first.size(); ++i) {
+    // One that neither way is a photograph of this building has no say.
+    if (!HasCorrection(first[i].registration.verdict) &&
+        !HasCorrection(second[i].registration.verdict)) {
+      continue;
+    }
     const double gain_nats = second[i].total_nats - first[i].total_nats;
     displaced.gain_nats +=
         std::clamp(gain_nats, -options.most_nats_of_photograph, options.most_nats_of_photograph);
@@ -108,20 +129,27 @@ std::vector<double> CountSamples(const std::vector<PhotographAlignment>& alignme
   return counts;
 }
 
+// A set that may be the misplaced one instead, and whether its planes' normals are those of the
+// other's turned round.
+struct Counterpart {
+  int set = -1;
+  bool is_turned = false;
+};
+
 // Of the sets that are parallel to an upright one and have no plane in common with it, the one that
 // photographs show most of; none if there is none.
-std::optional<int> FindCounterpart(int set,
-                                   const EdgeGroups& groups,
-                                   const std::vector<PhotographAlignment>& alignments) {
-  constexpr double kParallelCosine = 0.9998;
+std::optional<Counterpart> FindCounterpart(int set,
+                                           const EdgeGroups& groups,
+                                           const std::vector<PhotographAlignment>& alignments) {
   const EdgeGroupSet& moved = groups.sets[set];
   if (moved.across_in_world.isZero()) return std::nullopt;
   const std::vector<double> counts = CountSamples(alignments, groups.of_edge.size());
-  std::optional<int> counterpart;
+  std::optional<Counterpart> counterpart;
   double most = 0;
   for (size_t other = 0; other < groups.sets.size(); ++other) {
     const EdgeGroupSet& still = groups.sets[other];
-    if (still.across_in_world.dot(moved.across_in_world) < kParallelCosine) continue;
+    const double cosine = still.across_in_world.dot(moved.across_in_world);
+    if (std::abs(cosine) < kParallelCosine) continue;
     const bool is_apart = std::none_of(still.groups.begin(), still.groups.end(), [&](int group) {
       return std::find(moved.groups.begin(), moved.groups.end(), group) != moved.groups.end();
     });
@@ -133,7 +161,7 @@ std::optional<int> FindCounterpart(int set,
     }
     if (shown <= most) continue;
     most = shown;
-    counterpart = static_cast<int>(other);
+    counterpart = {static_cast<int>(other), cosine < 0};
   }
   return counterpart;
 }
@@ -147,15 +175,15 @@ void CoverOtherWay(const std::vector<PhotographAlignment>& other_way,
     AlignedPhotograph& here = alignments[i].aligned;
     const AlignedPhotograph& there = other_way[i].aligned;
     if (here.found.empty() || there.found.empty()) continue;
-    const CameraParameters apart =
+    CameraParameters apart =
         there.prior.ParametersAt(there.whitened) - here.prior.ParametersAt(here.whitened);
+    apart[kYaw] = std::remainder(apart[kYaw], 360.0);
     here.doubt += share * apart * apart.transpose();
   }
 }
 
 // Where a set goes as a whole, unit length; an edge of two planes goes where both go.
-Eigen::Vector3d DirectionOf(int number, const EdgeGroups& groups) {
-  const EdgeGroupSet& set = groups.sets[number];
+Eigen::Vector3d DirectionOf(const EdgeGroupSet& set, const EdgeGroups& groups) {
   if (!set.across_in_world.isZero()) return set.across_in_world;
   const bool is_drawn_onto_a_plane = groups.num_numbers[set.groups.front()] == 2;
   if (!is_drawn_onto_a_plane) return Eigen::Vector3d::UnitZ();
@@ -180,6 +208,23 @@ std::string DescribeMove(const Eigen::Vector3d& move_in_world, LengthUnit unit) 
   return words;
 }
 
+bool IsEnough(const DisplacedGroup& displaced, const DisplacedGroupOptions& options) {
+  return displaced.gain_nats >= options.least_gain_nats &&
+         displaced.num_photographs >= options.least_photographs;
+}
+
+// A set that is moved once more is told once.
+void AddTo(std::vector<DisplacedGroup>& displaced, const DisplacedGroup& found) {
+  for (DisplacedGroup& known : displaced) {
+    if (known.set != found.set) continue;
+    known.offset_units += found.offset_units;
+    known.gain_nats += found.gain_nats;
+    known.num_photographs = std::max(known.num_photographs, found.num_photographs);
+    return;
+  }
+  displaced.push_back(found);
+}
+
 }  // namespace
 
 std::vector<DisplacedGroup> FindDisplacedGroups(
@@ -194,31 +239,32 @@ std::vector<DisplacedGroup> FindDisplacedGroups(
     if (suspicions.empty()) break;
     const Suspicion& suspicion = suspicions.front();
     const double offset_units = suspicion.offset_sigmas * edge_model.sigma;
+    const EdgePlaces before = PlacesIn(edge_model);
     MoveSet(suspicion.set, offset_units, edge_model);
     std::vector<PhotographAlignment> moved = align_all();
     DisplacedGroup candidate =
         Compare({suspicion.set, offset_units, 0, 0}, alignments, moved, options);
-    if (candidate.gain_nats < options.least_gain_nats ||
-        candidate.num_photographs < options.least_photographs) {
+    if (!IsEnough(candidate, options)) {
       tried.insert(suspicion.set);
-      MoveSet(suspicion.set, -offset_units, edge_model);
+      PutBack(before, edge_model);
       continue;
     }
     // Two walls are too far apart or too near: which of them is in its place?
-    if (const std::optional<int> counterpart =
+    if (const std::optional<Counterpart> counterpart =
             FindCounterpart(suspicion.set, edge_model.groups, moved)) {
-      MoveSet(suspicion.set, -offset_units, edge_model);
-      MoveSet(*counterpart, -offset_units, edge_model);
+      const EdgePlaces one_way = PlacesIn(edge_model);
+      const double other_offset_units = counterpart->is_turned ? offset_units : -offset_units;
+      PutBack(before, edge_model);
+      MoveSet(counterpart->set, other_offset_units, edge_model);
       std::vector<PhotographAlignment> other_way = align_all();
       const DisplacedGroup other =
-          Compare({*counterpart, -offset_units, 0, 0}, alignments, other_way, options);
+          Compare({counterpart->set, other_offset_units, 0, 0}, alignments, other_way, options);
       const double lead_nats = candidate.gain_nats - other.gain_nats;
-      if (lead_nats < 0) {
+      if (lead_nats < 0 && IsEnough(other, options)) {
         candidate = other;
         std::swap(moved, other_way);
       } else {
-        MoveSet(*counterpart, offset_units, edge_model);
-        MoveSet(suspicion.set, offset_units, edge_model);
+        PutBack(one_way, edge_model);
       }
       CoverOtherWay(
           other_way, 1 / (1 + std::exp(std::abs(lead_nats) / options.doubtful_nats)), moved);
@@ -227,18 +273,25 @@ std::vector<DisplacedGroup> FindDisplacedGroups(
     for (size_t i = 0; i < moved.size(); ++i) {
       moved[i].aligned.doubt += alignments[i].aligned.doubt;
     }
-    displaced.push_back(candidate);
+    AddTo(displaced, candidate);
     alignments = std::move(moved);
   }
-  if (displaced.empty()) {
-    edge_model.group_offsets.clear();
-    edge_model.moves_in_world.clear();
+  if (displaced.empty()) PutBack({}, edge_model);
+  for (PhotographAlignment& alignment : alignments) {
+    if (alignment.aligned.doubt.isZero()) continue;
+    if (alignment.second_best) alignment.second_best->doubt = alignment.aligned.doubt;
+    AddToCovariance(alignment.aligned.doubt,
+                    alignment.aligned.prior,
+                    alignment.aligned.whitened,
+                    edge_model.model,
+                    alignment.registration);
   }
   return displaced;
 }
 
 std::string DescribeDisplacedGroup(const DisplacedGroup& displaced, const EdgeModel& edge_model) {
-  const auto moves = MovesOfSet(edge_model.groups.sets[displaced.set], edge_model.groups);
+  const EdgeGroupSet& set = edge_model.groups.sets[displaced.set];
+  const auto moves = MovesOfSet(set, edge_model.groups);
   std::vector<std::string> names;
   for (size_t edge = 0; edge < moves.size(); ++edge) {
     if (!moves[edge]) continue;
@@ -257,7 +310,7 @@ std::string DescribeDisplacedGroup(const DisplacedGroup& displaced, const EdgeMo
       "there. Measure that again, and correct the model",
       displaced.num_photographs,
       whose,
-      DescribeMove(displaced.offset_units * DirectionOf(displaced.set, edge_model.groups),
+      DescribeMove(displaced.offset_units * DirectionOf(set, edge_model.groups),
                    edge_model.model.unit));
 }
 

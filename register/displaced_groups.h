@@ -22,7 +22,8 @@ struct DisplacedGroup {
 // camera, where they fit and the rest does not: none of them can know, and together they would
 // agree. So groups are moved, those that the photographs' profiles (GroupProfile) speak for most,
 // and all photographs aligned anew; where that says more for the photographs together, the group is
-// taken to lie there. One after the other; edge_model and alignments are as with all of them.
+// taken to lie there. One after the other; edge_model and alignments are as with all of them, and
+// what is claimed for a camera covers the one that it has if another part is the misplaced one.
 // align_all: aligns every photograph with edge_model as it stands.
 std::vector<DisplacedGroup> FindDisplacedGroups(
     const DisplacedGroupOptions& options,

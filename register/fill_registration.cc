@@ -34,6 +34,17 @@ double VertexSigmaPx(const PolygonModel& model,
   return count ? sum / count : 0;
 }
 
+// The sigmas of the registration's camera from its covariance, by themselves and in its pixels.
+void FillSigmas(const CameraPrior& prior,
+                const ParameterProjection& projection,
+                const PolygonModel& model,
+                Registration& registration) {
+  registration.sigmas = registration.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  registration.vertex_sigma_px =
+      static_cast<double>(registration.width_px) / prior.width_px *
+      VertexSigmaPx(model, projection, registration.covariance, prior.width_px, prior.height_px);
+}
+
 }  // namespace
 
 void FillRegistration(const JointSolution& solution,
@@ -45,7 +56,6 @@ void FillRegistration(const JointSolution& solution,
   const ParameterProjection projection = prior.ProjectionAt(solution.whitened);
   registration.corrected = TagFromParameters(prior.ParametersAt(solution.whitened), prior.measured);
   registration.covariance = prior.root * solution.covariance * prior.root.transpose();
-  registration.sigmas = registration.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   registration.num_samples = solution.num_matched;
   registration.rms_px.reset();
   registration.robust_sigma_px.reset();
@@ -58,9 +68,16 @@ void FillRegistration(const JointSolution& solution,
   registration.moved_px =
       to_photograph *
       MeanDisplacementPx(points_in_world, prior.ProjectionAt(CameraParameters::Zero()), projection);
-  registration.vertex_sigma_px =
-      to_photograph *
-      VertexSigmaPx(model, projection, registration.covariance, prior.width_px, prior.height_px);
+  FillSigmas(prior, projection, model, registration);
+}
+
+void AddToCovariance(const CameraCovariance& added,
+                     const CameraPrior& prior,
+                     const CameraParameters& whitened,
+                     const PolygonModel& model,
+                     Registration& registration) {
+  registration.covariance += added;
+  FillSigmas(prior, prior.ProjectionAt(whitened), model, registration);
 }
 
 void RecordEvidence(const Evidence& evidence, Registration& registration) {

@@ -24,6 +24,14 @@ void FillRegistration(const JointSolution& solution,
                       const std::vector<Eigen::Vector3d>& points_in_world,
                       Registration& registration);
 
+// What is claimed for a camera that a registration has, with a further covariance (of the
+// parameters as they are in the tag) joined to it.
+void AddToCovariance(const CameraCovariance& added,
+                     const CameraPrior& prior,
+                     const CameraParameters& whitened,
+                     const PolygonModel& model,
+                     Registration& registration);
+
 // Writes down what speaks for the camera.
 void RecordEvidence(const Evidence& evidence, Registration& registration);
 

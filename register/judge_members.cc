@@ -10,6 +10,8 @@
 #include <tbb/parallel_for.h>
 
 #include <functional>
+#include <optional>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -94,21 +96,33 @@ void JudgeMember(size_t i,
 }
 
 // How far each camera lies from its tag, beside how far those of the whole notebook do: what all of
-// its pages are wrong by is no blunder of one.
-void JudgeTagsOfMembers(const RegisterOptions& options, LengthUnit unit, const PhotographSet& set) {
-  std::vector<CorrectedTag> tags;
+// its pages are wrong by is no blunder of one. A slip is one, and no measure of the others.
+void JudgeTagsOfMembers(const JointRefinement& joint,
+                        const RegisterOptions& options,
+                        LengthUnit unit,
+                        const PhotographSet& set) {
+  std::vector<CameraCovariance> covariances;
+  for (size_t i = 0; i < set.photographs.size(); ++i) {
+    const CameraPrior& prior = set.photographs[i].prior;
+    covariances.push_back(prior.root * joint.photographs[i].covariance * prior.root.transpose());
+  }
+  std::vector<CorrectedTag> as_meant;
   for (size_t i = 0; i < set.photographs.size(); ++i) {
     const AlignedPhotograph& photograph = set.photographs[i];
-    tags.push_back({&photograph.written,
-                    photograph.prior.ParametersAt(photograph.whitened),
-                    &set.alignments[i]->registration.covariance});
+    if (!photograph.slip.empty()) continue;
+    as_meant.push_back(
+        {&photograph.written, photograph.prior.ParametersAt(photograph.whitened), &covariances[i]});
   }
   const VerdictOptions verdict =
-      WithOverclaim(options.verdict, OverclaimOfSet(tags, options.overclaim));
+      WithOverclaim(options.verdict, OverclaimOfSet(as_meant, options.overclaim));
   for (size_t i = 0; i < set.photographs.size(); ++i) {
-    ApplyJudgement(
-        JudgeTag(tags[i].parameters, *tags[i].written, set.photographs[i].slip, unit, verdict),
-        set.alignments[i]->registration);
+    const AlignedPhotograph& photograph = set.photographs[i];
+    ApplyJudgement(JudgeTag(photograph.prior.ParametersAt(photograph.whitened),
+                            photograph.written,
+                            photograph.slip,
+                            unit,
+                            verdict),
+                   set.alignments[i]->registration);
   }
 }
 
@@ -137,7 +151,7 @@ void JudgeMembers(const JointRefinement& joint,
   tbb::parallel_for(size_t{0}, set.photographs.size(), [&](size_t i) {
     JudgeMember(i, joint.photographs[i], set, views, edge_model, options);
   });
-  JudgeTagsOfMembers(options, edge_model.model.unit, set);
+  JudgeTagsOfMembers(joint, options, edge_model.model.unit, set);
   JudgeTiesOfMembers(options.verdict, set);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <map>
 #include <optional>
@@ -12,9 +13,6 @@
 
 namespace groundglass {
 namespace {
-
-// Planes that differ by less in direction are one.
-constexpr double kLeastCosine = 0.9998;  // 1.1 degrees
 
 // Planes by their numbers, each as often as it is asked for the same.
 class PlaneNumbers {
@@ -31,10 +29,13 @@ class PlaneNumbers {
       break;
     }
     const double offset = normal.dot(point_in_world - center_);
-    for (auto at = by_offset_.lower_bound(offset - tolerance_);
-         at != by_offset_.end() && at->first <= offset + tolerance_;
-         ++at) {
-      if (normals_[at->second].dot(normal) > kLeastCosine) return at->second;
+    // Of two planes that are nearly one, either may have its normal turned round.
+    for (const double sign : {1.0, -1.0}) {
+      for (auto at = by_offset_.lower_bound(sign * offset - tolerance_);
+           at != by_offset_.end() && at->first <= sign * offset + tolerance_;
+           ++at) {
+        if (sign * normals_[at->second].dot(normal) > kParallelCosine) return at->second;
+      }
     }
     const int number = static_cast<int>(normals_.size());
     normals_.push_back(normal);
@@ -88,7 +89,8 @@ std::vector<double> LowestHeights(const std::vector<ModelEdge>& edges,
 }
 
 // For each plane those that go where it goes: with an upright one those that are parallel and near;
-// with eaves and roofs, which go up and down, all of them that lie no lower.
+// with eaves and roofs, which go up and down, all of them that lie no lower. Nothing goes with what
+// all stands on: that is the cameras' height, and no part of the model.
 std::vector<EdgeGroupSet> FindSets(const PlaneNumbers& planes,
                                    const std::vector<double>& lowest,
                                    double tolerance,
@@ -99,21 +101,25 @@ std::vector<EdgeGroupSet> FindSets(const PlaneNumbers& planes,
   if (planes.Count() > kMostPlanes) return {};
   std::vector<EdgeGroupSet> sets;
   std::set<std::vector<int>> known;
+  const double ground = lowest.empty() ? 0 : *std::min_element(lowest.begin(), lowest.end());
   for (int plane = 0; plane < planes.Count(); ++plane) {
     const Eigen::Vector3d& normal = planes.NormalOf(plane);
     const bool is_upright = std::abs(normal.z()) < kLeastSlope;
+    if (!is_upright && lowest[plane] <= ground + tolerance) continue;
     EdgeGroupSet set;
     if (is_upright) set.across_in_world = normal;
     for (int other = 0; other < planes.Count(); ++other) {
       const Eigen::Vector3d& other_normal = planes.NormalOf(other);
+      const double sign = normal.dot(other_normal) < 0 ? -1 : 1;
       const bool goes_along =
-          is_upright ? normal.dot(other_normal) > kLeastCosine &&
-                           std::abs(planes.OffsetOf(other) - planes.OffsetOf(plane)) <= attached
-                     : lowest[other] >= lowest[plane] - tolerance &&
-                           std::abs(other_normal.z()) >= kLeastSlope;
+          is_upright
+              ? sign * normal.dot(other_normal) > kParallelCosine &&
+                    std::abs(sign * planes.OffsetOf(other) - planes.OffsetOf(plane)) <= attached
+              : lowest[other] >= lowest[plane] - tolerance &&
+                    std::abs(other_normal.z()) >= kLeastSlope;
       if (!goes_along) continue;
       set.groups.push_back(other);
-      set.factors.push_back(is_upright ? 1 : other_normal.z());
+      set.factors.push_back(is_upright ? sign : other_normal.z());
     }
     if (known.insert(set.groups).second) sets.push_back(std::move(set));
   }

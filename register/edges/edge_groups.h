@@ -12,6 +12,9 @@
 
 namespace groundglass {
 
+// Planes that differ by less in direction are parallel.
+inline constexpr double kParallelCosine = 0.9998;  // 1.1 degrees
+
 // What is measured once errs as one: all walls along a line of the plan, eaves and floors at one
 // level, the windows that are drawn onto a wall. Such edges are a group, and a group is displaced
 // by one number (a plane along its normal) or two (what is drawn onto a plane, within it).

@@ -20,7 +20,7 @@ JointRefinement RefineTogether(const EdgeModel& edge_model,
   JointState state(edge_model, photographs, lenses, ties, options);
   SolvedTogether solved;
   for (int round = 0; round < options.num_rounds; ++round) {
-    if (round + 1 == options.num_rounds) {
+    if (round > 0 && round + 1 == options.num_rounds) {
       EstimateSharedOffset(options, state);
       EstimateGroupOffset(options, state);
     }

@@ -31,7 +31,7 @@ EdgeFrame FrameOfGround(const PolygonModel& model, const JointOptions& options) 
   return frame;
 }
 
-// For each edge the groups of which enough edges are seen, in units of their scale.
+// For each edge those of its groups of which enough edges are seen, in units of their scale.
 std::vector<std::vector<EdgeGroupPart>> GroupsOfSeenEdges(
     const EdgeModel& edge_model,
     const std::vector<AlignedPhotograph>& photographs,
@@ -54,9 +54,12 @@ std::vector<std::vector<EdgeGroupPart>> GroupsOfSeenEdges(
   for (size_t i = 0; i < by_count.size() && i < static_cast<size_t>(options.most_groups); ++i) {
     is_moved[by_count[i]] = num_seen[by_count[i]] >= options.least_edges_of_group;
   }
+  // What lies elsewhere than it is drawn stays there, however little is seen of it.
+  for (size_t group = 0; group < edge_model.group_offsets.size(); ++group) {
+    if (!edge_model.group_offsets[group].isZero()) is_moved[group] = true;
+  }
   std::vector<std::vector<EdgeGroupPart>> moved(is_seen.size());
   for (size_t edge = 0; edge < is_seen.size(); ++edge) {
-    if (!is_seen[edge]) continue;
     for (EdgeGroupPart part : groups.of_edge[edge]) {
       if (!is_moved[part.group]) continue;
       part.directions *= options.group_offset_sigmas * edge_model.sigma;

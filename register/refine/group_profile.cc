@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -39,6 +40,50 @@ double ShareOf(const std::vector<std::optional<Eigen::Vector3d>>& moves,
   return own_px / std::max(1.0, all_px);
 }
 
+// A set of which a photograph shows enough, and where its edges go.
+struct AskedSet {
+  int set = -1;
+  double share = 0;
+  std::vector<std::optional<Eigen::Vector3d>> moves;
+};
+
+std::vector<AskedSet> FindAskedSets(const std::vector<EdgeSample>& samples,
+                                    const EdgeGroups& groups,
+                                    const GroupProfileOptions& options) {
+  const std::vector<double> shares = SharesOfGroups(samples, groups);
+  std::vector<AskedSet> asked;
+  for (size_t set = 0; set < groups.sets.size(); ++set) {
+    // No less than its share: an edge may be of two of its groups.
+    double most_share = 0;
+    for (const int group : groups.sets[set].groups) most_share += shares[group];
+    if (most_share < options.least_share) continue;
+    AskedSet candidate{static_cast<int>(set), 0, MovesOfSet(groups.sets[set], groups)};
+    candidate.share = ShareOf(candidate.moves, samples);
+    if (candidate.share < options.least_share || candidate.share > options.most_share) continue;
+    asked.push_back(std::move(candidate));
+  }
+  if (asked.size() > static_cast<size_t>(options.most_sets)) {
+    std::stable_sort(asked.begin(), asked.end(), [](const AskedSet& a, const AskedSet& b) {
+      return a.share > b.share;
+    });
+    asked.resize(options.most_sets);
+  }
+  return asked;
+}
+
+// How far, px, the farthest offset moves samples in the picture; no less than options say.
+double SpareFor(const std::vector<EdgeSample>& samples,
+                const ParameterProjection& projection,
+                double model_sigma,
+                const GroupProfileOptions& options) {
+  double spare_px = options.least_spare_px;
+  for (const ProjectedSample& seen : ProjectSamples(samples, projection)) {
+    if (!seen.is_valid) continue;
+    spare_px = std::max(spare_px, options.reach_sigmas * model_sigma * seen.px_per_unit);
+  }
+  return std::min(spare_px, options.most_spare_px);
+}
+
 // What a set's edges score at each offset from where they are drawn.
 std::vector<double> ScoreMoved(std::vector<ScoreSample> samples,
                                const std::vector<Eigen::Vector3d>& direction_of_sample,
@@ -68,7 +113,9 @@ void GroupProfileOptions::Check(const std::string& path) const {
   CheckFromTo(most_share, 0, 1, path + "most_share");
   CheckAbove(reach_sigmas, 0, path + "reach_sigmas");
   CheckFromTo(step_sigmas, 1e-3 * reach_sigmas, reach_sigmas, path + "step_sigmas");
-  CheckAtLeast(spare_px, 0, path + "spare_px");
+  CheckFromTo(most_sets, 1, 1000000, path + "most_sets");
+  CheckAtLeast(least_spare_px, 0, path + "least_spare_px");
+  CheckAtLeast(most_spare_px, least_spare_px, path + "most_spare_px");
 }
 
 double OffsetSigmas(size_t entry, const GroupProfileOptions& options) {
@@ -82,19 +129,10 @@ std::vector<GroupProfile> FindGroupProfiles(const Solution& best,
                                             const CameraPrior& prior,
                                             const SolutionOptions& solutions,
                                             const GroupProfileOptions& options) {
-  const EdgeGroups& groups = edge_model.groups;
-  const std::vector<double> shares = SharesOfGroups(best.refinement.samples, groups);
   std::vector<GroupProfile> profiles;
-  for (size_t set = 0; set < groups.sets.size(); ++set) {
-    // No less than its share: an edge may be of two of its groups.
-    double most_share = 0;
-    for (const int group : groups.sets[set].groups) most_share += shares[group];
-    if (most_share < options.least_share) continue;
-    const auto moves = MovesOfSet(groups.sets[set], groups);
-    const double share = ShareOf(moves, best.refinement.samples);
-    if (share < options.least_share || share > options.most_share) continue;
+  for (const AskedSet& asked : FindAskedSets(best.refinement.samples, edge_model.groups, options)) {
     std::vector<bool> is_left_out;
-    for (const auto& move : moves) is_left_out.push_back(move.has_value());
+    for (const auto& move : asked.moves) is_left_out.push_back(move.has_value());
     const Refinement without = RefineWithoutEdges(
         best.refinement.whitened, edge_model, is_left_out, evidence, prior, solutions.refine);
     if (without.outcome != Refinement::Outcome::kConverged &&
@@ -108,13 +146,17 @@ std::vector<GroupProfile> FindGroupProfiles(const Solution& best,
                                                        prior.CameraAt(without.whitened),
                                                        -solutions.refine.border_px,
                                                        solutions.refine.spacing_px)) {
-      (moves[sample.edge] ? own : others).push_back(sample);
+      (asked.moves[sample.edge] ? own : others).push_back(sample);
     }
     const std::vector<ScoreSample> own_samples =
-        FindScoreSamples(own, projection, evidence, options.spare_px, solutions.score);
+        FindScoreSamples(own,
+                         projection,
+                         evidence,
+                         SpareFor(own, projection, edge_model.sigma, options),
+                         solutions.score);
     std::vector<Eigen::Vector3d> directions;
-    for (const ScoreSample& sample : own_samples) directions.push_back(*moves[sample.edge]);
-    GroupProfile profile{static_cast<int>(set), {}};
+    for (const ScoreSample& sample : own_samples) directions.push_back(*asked.moves[sample.edge]);
+    GroupProfile profile{asked.set, {}};
     profile.gain_nats =
         ScoreMoved(own_samples, directions, edge_model.sigma, projection, solutions.score, options);
     const double others_nats = ScoreAlignment(others, projection, evidence, solutions.score).nats -

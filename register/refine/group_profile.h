@@ -14,11 +14,15 @@ struct GroupProfileOptions {
   // edges are not asked: the first decide little, and without the others little is left.
   double least_share = 0.08;
   double most_share = 0.9;
+  // So many at the most, those with the largest shares.
+  int most_sets = 200;
   // How far to both sides a set is moved, and in what steps, sigmas of the model.
   double reach_sigmas = 15;
   double step_sigmas = 0.5;
-  // How far, px, its edges may be seen from where a camera sees them.
-  double spare_px = 30;
+  // How far, px, its edges may be seen from where a camera sees them: as far as they are moved,
+  // within limits. Of what is nearer, less is known farther out.
+  double least_spare_px = 30;
+  double most_spare_px = 90;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "group profile options: ") const;

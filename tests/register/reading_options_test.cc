@@ -79,13 +79,16 @@ TEST(DisplacedGroupOptions, CheckNamesEachField) {
 }
 
 TEST(GroupProfileOptions, CheckNamesEachField) {
-  [[maybe_unused]] const auto& [least, most, reach, step, spare] = GroupProfileOptions();
+  [[maybe_unused]] const auto& [least, most, sets, reach, step, least_px, most_px] =
+      GroupProfileOptions();
   ExpectCheckNamesEach<GroupProfileOptions>({
       {"least_share", [](auto& o) { o.least_share = -1; }},
       {"most_share", [](auto& o) { o.most_share = 2; }},
       {"reach_sigmas", [](auto& o) { o.reach_sigmas = 0; }},
       {"step_sigmas", [](auto& o) { o.step_sigmas = 0; }},
-      {"spare_px", [](auto& o) { o.spare_px = -1; }},
+      {"most_sets", [](auto& o) { o.most_sets = 0; }},
+      {"least_spare_px", [](auto& o) { o.least_spare_px = -1; }},
+      {"most_spare_px", [](auto& o) { o.most_spare_px = 1; }},
   });
 }
 

@@ -91,6 +91,18 @@ TEST(FindEdgeGroups, WallsOnOneLineOfThePlanAreOneGroup) {
   EXPECT_NE(GroupsOfFace(groups, edges, 0), GroupsOfFace(groups, edges, 12));
 }
 
+// A wall whose far end is a hair out of line has a normal that crosses the axis.
+TEST(FindEdgeGroups, AWallIsOneGroupWhicheverWayItsPartsAreSkew) {
+  PolygonModel model;
+  model.points_in_world = {
+      {0, 0, 0}, {10, -0.02, 0}, {20, 0, 0}, {0, 0, 5}, {10, -0.02, 5}, {20, 0, 5}};
+  model.faces = {{{0, 1, 4, 3}, ""}, {{1, 2, 5, 4}, ""}};
+  const std::vector<ModelEdge> edges = FindModelEdges(model);
+  const EdgeGroups groups =
+      FindEdgeGroups(model, edges, std::vector<bool>(edges.size(), false), 0.05, kAttached);
+  EXPECT_EQ(GroupsOfFace(groups, edges, 0), GroupsOfFace(groups, edges, 1));
+}
+
 // Two walls without a roof end at one level all the same; where they stand on the ground they do
 // not.
 TEST(FindEdgeGroups, BordersAtOneHeightAreOneLevel) {
@@ -172,7 +184,7 @@ TEST(EdgeGroupSets, WhatLiesHigherGoesWithTheEaves) {
     const auto lower = MoveOfEdgeAt({5, 0, 5}, set, groups, edges);
     const auto upper = MoveOfEdgeAt({3, 2, 9}, set, groups, edges);
     const auto foot = MoveOfEdgeAt({5, 0, 0}, set, groups, edges);
-    if (foot) continue;  // the level on which all stands, and all goes
+    EXPECT_FALSE(foot) << "what all stands on is no part of the model";
     ASSERT_TRUE(upper);
     EXPECT_NEAR(upper->z(), 1, 1e-6);
     num_with_upper += !lower;
@@ -182,6 +194,27 @@ TEST(EdgeGroupSets, WhatLiesHigherGoesWithTheEaves) {
   }
   EXPECT_GE(num_with_both, 1);
   EXPECT_EQ(num_with_upper, 1);
+}
+
+// So that it stands out as far as before, although its face is skew the other way.
+TEST(EdgeGroupSets, WhatStandsOutGoesTheSameWayAsASkewWall) {
+  PolygonModel model;
+  AddBox({0, 0, 0}, {10, 10, 5}, model);
+  AddBox({3, -1, 0}, {6, 0, 4}, model);
+  for (const int point : {0, 4}) model.points_in_world[point].y() = -0.02;
+  for (const int point : {9, 13}) model.points_in_world[point].y() = -1.02;
+  const std::vector<ModelEdge> edges = FindModelEdges(model);
+  const EdgeGroups groups = GroupsOf(model, edges);
+  int num_of_wall = 0;
+  for (const EdgeGroupSet& set : groups.sets) {
+    if (std::abs(set.across_in_world.y()) < 0.5) continue;
+    const auto wall = MoveOfEdgeAt({5, -0.01, 5}, set, groups, edges);
+    const auto buttress = MoveOfEdgeAt({4.5, -1.01, 4}, set, groups, edges);
+    if (!wall || !buttress) continue;
+    EXPECT_GT(wall->y() * buttress->y(), 0.5);
+    ++num_of_wall;
+  }
+  EXPECT_GE(num_of_wall, 1);
 }
 
 TEST(EdgeGroupSets, WhatStandsOutOfAWallGoesWithIt) {

@@ -85,5 +85,18 @@ TEST(EstimateGroupOffset, StaysWithinTheOptionsAndWantsEnoughGroups) {
   EXPECT_EQ(few.state.group_offset_sigmas, 1);
 }
 
+// What photographs show of a displaced group may be a single edge, or none.
+TEST(JointState, ADisplacedGroupStaysThereHoweverLittleIsSeenOfIt) {
+  EdgeModel edge_model(MakeHouse());
+  edge_model.group_offsets.assign(edge_model.groups.num_numbers.size(), Eigen::Vector2d::Zero());
+  const int edge = 0;
+  const EdgeGroupPart& part = edge_model.groups.of_edge[edge].front();
+  edge_model.group_offsets[part.group][0] = 0.7;
+  const std::vector<AlignedPhotograph> photographs;
+  const std::vector<TiePoint> ties;
+  const JointState state(edge_model, photographs, {}, ties, {});
+  EXPECT_LT((state.GroupMoveOf(edge) - 0.7 * part.directions.col(0)).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace groundglass
