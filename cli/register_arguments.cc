@@ -13,6 +13,7 @@
 #include "scene/formats/text_encoding.h"
 #include "scene/frames.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -244,14 +245,25 @@ void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit un
       "\nThe photographs see these lines of the model elsewhere (x east, y south, z up):\n");
   for (const ModelError& error : model_errors) {
     const Eigen::Vector3d offset_in_site = SiteFromWorld(error.offset_in_world);
-    std::printf("%-40s off by %+.2f %+.2f %+.2f %s, +-%.2f, in %d photographs\n",
+    const Eigen::Vector3d start_in_site = SiteFromWorld(error.start_in_world);
+    const Eigen::Vector3d end_in_site = SiteFromWorld(error.end_in_world);
+    std::printf("%s%-40s off by %+.2f %+.2f %+.2f %s, +-%.2f\n",
+                error.with_the_one_before ? "  with it " : "",
                 error.name.c_str(),
                 ZeroIfRounded(offset_in_site.x(), 2),
                 ZeroIfRounded(offset_in_site.y(), 2),
                 ZeroIfRounded(offset_in_site.z(), 2),
                 unit_name.c_str(),
-                error.sigma,
-                error.num_photographs);
+                error.sigma);
+    std::printf("    %.2f long, from %.2f %.2f %.2f to %.2f %.2f %.2f; in %s\n",
+                (error.end_in_world - error.start_in_world).norm(),
+                ZeroIfRounded(start_in_site.x(), 2),
+                ZeroIfRounded(start_in_site.y(), 2),
+                ZeroIfRounded(start_in_site.z(), 2),
+                ZeroIfRounded(end_in_site.x(), 2),
+                ZeroIfRounded(end_in_site.y(), 2),
+                ZeroIfRounded(end_in_site.z(), 2),
+                fmt::format("{}", fmt::join(error.photographs, " ")).c_str());
   }
 }
 

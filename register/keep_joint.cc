@@ -70,13 +70,15 @@ Json JsonOfFound(const JointStage& stage, size_t index) {
   return json;
 }
 
-Json JsonOfDisplacement(const EdgeDisplacement& displacement) {
+Json JsonOfDisplacement(const JointStage& stage, const EdgeDisplacement& displacement) {
+  std::vector<std::string> names;
+  for (const int photograph : displacement.photographs) names.push_back(stage.names[photograph]);
   return {
       {"edge", displacement.edge},
       {"start_moved", JsonOfVector(SiteFromWorld(displacement.start_in_world))},
       {"end_moved", JsonOfVector(SiteFromWorld(displacement.end_in_world))},
       {"middle_sigmas", JsonOfVector(displacement.covariance.diagonal().cwiseMax(0).cwiseSqrt())},
-      {"photographs", displacement.num_photographs}};
+      {"photographs", names}};
 }
 
 std::string FormatJointStage(const JointStage& stage) {
@@ -88,7 +90,7 @@ std::string FormatJointStage(const JointStage& stage) {
   }
   for (const TiePoint& tie : stage.ties) given["ties"].push_back(JsonOfTie(stage, tie));
   for (const EdgeDisplacement& displacement : stage.joint.displacements) {
-    found["edges"].push_back(JsonOfDisplacement(displacement));
+    found["edges"].push_back(JsonOfDisplacement(stage, displacement));
   }
   return Json{{"given", std::move(given)}, {"found", std::move(found)}}.dump(1) + "\n";
 }

@@ -212,6 +212,11 @@ std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
   if (set.photographs.size() < 2) return {};
   if (moved_tags != nullptr) *moved_tags = std::move(moved);
   JudgeMembers(joint, edge_model, options, set);
+  for (EdgeDisplacement& displacement : joint.displacements) {
+    for (int& photograph : displacement.photographs) {
+      photograph = static_cast<int>(set.alignments[photograph] - alignments.data());
+    }
+  }
   return joint.displacements;
 }
 

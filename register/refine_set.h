@@ -16,7 +16,8 @@ namespace groundglass {
 // share a lens; without names, those of one size, view angle and aspect. What they share is k1, and
 // with options.prior.digital view angle, aspect and shift as well. One that the others pull away
 // from its own edges stays as it was found alone, and so do those with control points. Returns how
-// far the model's edges were found from where the model has them; empty if fewer than two are
+// far the model's edges were found from where the model has them, with the places among alignments
+// of those that show each; empty if fewer than two are
 // refined, and then all stay as they are. Throws Error if there is no common solution.
 // tag_corners: of AprilTags that were surveyed, in pixels of the photographs; each is a point whose
 // place is known to the survey's sigma. moved_tags, if given, receives those that are not there.

@@ -123,6 +123,33 @@ std::vector<PhotographAlignment> AlignAll(const Scene& scene,
   return alignments;
 }
 
+// Aligns photographs anew where groups of the model's edges lie elsewhere, and warns of them.
+void HeedDisplacedGroups(const Scene& scene,
+                         const std::optional<Lens>& lens,
+                         const RegisterOptions& options,
+                         const Progress& progress,
+                         EdgeModel& edge_model,
+                         std::vector<PhotographAlignment>& alignments,
+                         RegisteredScene& registered) {
+  // What a trial hands on is not kept: it may be in vain.
+  RegisterOptions unkept = options;
+  unkept.keep_folder.clear();
+  const std::vector<DisplacedGroup> displaced = FindDisplacedGroups(
+      options.displaced,
+      [&] { return AlignAll(scene, lens, edge_model, unkept, progress); },
+      edge_model,
+      alignments);
+  if (displaced.empty()) return;
+  for (const DisplacedGroup& group : displaced) {
+    registered.warnings.push_back(DescribeDisplacedGroup(group, edge_model));
+  }
+  if (options.keep_folder.empty()) return;
+  std::vector<PhotographAlignment> kept = AlignAll(scene, lens, edge_model, options, progress);
+  for (size_t i = 0; i < kept.size(); ++i) {
+    alignments[i].keep_fault = std::move(kept[i].keep_fault);
+  }
+}
+
 // What calibration/ has of surveyed AprilTags; that it cannot be read is a warning.
 std::vector<SeenTagCorner> TagCornersOf(const Scene& scene, std::vector<std::string>& warnings) {
   for (const std::filesystem::path& file : scene.lens_files) {
@@ -154,9 +181,14 @@ void RefineWhatIsShared(const EdgeModel& edge_model,
   }
   try {
     std::vector<MovedTag> moved_tags;
+    std::vector<std::string> names;
+    for (const PhotographAlignment& alignment : alignments) {
+      names.push_back(alignment.registration.name);
+    }
     registered.model_errors =
         FindModelErrors(edge_model,
                         RefineSet(edge_model, options, alignments, tag_corners, &moved_tags),
+                        names,
                         options.model_errors);
     for (const MovedTag& tag : moved_tags) {
       registered.warnings.push_back(DescribeMovedTag(tag, UnitName(edge_model.model.unit)));
@@ -187,11 +219,7 @@ RegisteredScene RegisterScene(const Scene& scene,
       options.prior.overclaim = *overclaim;
       alignments = AlignAll(scene, lens, edge_model, options, progress);
     }
-    const auto align_all = [&] { return AlignAll(scene, lens, edge_model, options, progress); };
-    for (const DisplacedGroup& displaced :
-         FindDisplacedGroups(options.displaced, align_all, edge_model, alignments)) {
-      registered.warnings.push_back(DescribeDisplacedGroup(displaced, edge_model));
-    }
+    HeedDisplacedGroups(scene, lens, options, progress, edge_model, alignments, registered);
     const std::vector<SeenTagCorner> tag_corners = TagCornersOf(scene, registered.warnings);
     RefineWhatIsShared(edge_model, options, tag_corners, progress, alignments, registered);
   }

@@ -150,6 +150,25 @@ void AddTurnedFaces(const ReportInput& input, std::vector<Step>& steps) {
                    ""});
 }
 
+// What is off as one is measured once.
+void AddModelErrors(const ReportInput& input, std::vector<Step>& steps) {
+  size_t num_told = 0;
+  for (size_t i = 0; i < input.model_errors.size() && num_told < kMostModelErrors; ++num_told) {
+    const ModelError& error = input.model_errors[i];
+    size_t end = i + 1;
+    while (end < input.model_errors.size() && input.model_errors[end].with_the_one_before) ++end;
+    const size_t num_with_it = end - i - 1;
+    steps.push_back(
+        {"Measure \u201c" + error.name + "\u201d again" +
+             (num_with_it > 0 ? ", and with it " + Plural(num_with_it, "more line") : "") + ": " +
+             Plural(error.photographs.size(), "photograph") + " see it " +
+             FormatRounded(error.offset_in_world.norm(), error.sigma) + input.unit +
+             " from where the model has it.",
+         ""});
+    i = end;
+  }
+}
+
 }  // namespace
 
 // What can be mended at the desk comes before a walk to the building.
@@ -175,14 +194,7 @@ mustache::data NextStepsData(const ReportInput& input) {
                   "is not as texturing writes it: " + TellJsonFault(error.what()));
     }
   }
-  for (size_t i = 0; i < std::min(input.model_errors.size(), kMostModelErrors); ++i) {
-    const ModelError& error = input.model_errors[i];
-    steps.push_back(
-        {"Measure \u201c" + error.name + "\u201d again: " + std::to_string(error.num_photographs) +
-             " photographs see it " + FormatRounded(error.offset_in_world.norm(), error.sigma) +
-             input.unit + " from where the model has it.",
-         ""});
-  }
+  AddModelErrors(input, steps);
   if (steps.empty()) return false;
   mustache::list list;
   for (const Step& step : steps) {

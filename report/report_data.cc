@@ -35,6 +35,13 @@ std::string FormatOffset(double offset, double sigma) {
   return (offset < 0 ? "" : "+") + FormatRounded(offset, sigma);
 }
 
+// x, y and z in site.
+std::string FormatPoint(const Eigen::Vector3d& point_in_world, double sigma) {
+  const Eigen::Vector3d point_in_site = SiteFromWorld(point_in_world);
+  return FormatRounded(point_in_site.x(), sigma) + " " + FormatRounded(point_in_site.y(), sigma) +
+         " " + FormatRounded(point_in_site.z(), sigma);
+}
+
 }  // namespace
 
 mustache::data CountsData(const ReportInput& input) {
@@ -102,7 +109,15 @@ mustache::data ModelErrorsData(const ReportInput& input) {
     line["y"] = FormatOffset(offset_in_site.y(), error.sigma);
     line["z"] = FormatOffset(offset_in_site.z(), error.sigma);
     line["sigma"] = FormatSigma(error.sigma);
-    line["num_photographs"] = std::to_string(error.num_photographs);
+    line["from"] = FormatPoint(error.start_in_world, error.sigma);
+    line["to"] = FormatPoint(error.end_in_world, error.sigma);
+    line["length"] = FormatRounded((error.end_in_world - error.start_in_world).norm(), error.sigma);
+    line["with"] = error.with_the_one_before;
+    std::string photographs;
+    for (const std::string& name : error.photographs) {
+      photographs += (photographs.empty() ? "" : " ") + name;
+    }
+    line["photographs"] = photographs;
     lines.push_back(std::move(line));
   }
   return {"lines", lines};

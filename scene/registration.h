@@ -116,8 +116,10 @@ struct ModelError {
   Eigen::Vector3d start_in_world = Eigen::Vector3d::Zero();  // as the model has it, its unit
   Eigen::Vector3d end_in_world = Eigen::Vector3d::Zero();
   Eigen::Vector3d offset_in_world = Eigen::Vector3d::Zero();  // to where it is, at its middle
-  double sigma = 0;         // one standard deviation of the offset's length, model's unit
-  int num_photographs = 0;  // that show the line
+  double sigma = 0;  // one standard deviation of the offset's length, model's unit
+  std::vector<std::string> photographs;  // that show the line
+  // Whether it is off as one with the one before it in the list: a wall, a level, a wall's windows.
+  bool with_the_one_before = false;
 };
 
 }  // namespace groundglass

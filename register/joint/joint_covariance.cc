@@ -175,14 +175,18 @@ JointRefinement SummariseTogether(JointState& state, SolvedTogether& solved) {
   for (const MovingTie& tie : state.ties) {
     joint.tie_moves_in_world.push_back(tie.frame.axes_in_world * tie.move);
   }
+  std::vector<std::vector<int>> shown_in(state.edges.size());
+  for (const MatchedRun& run : state.runs) {
+    shown_in[run.edge].push_back(static_cast<int>(run.photograph));
+  }
   for (size_t number = 0; number < state.edges.size(); ++number) {
-    if (state.edges[number].num_photographs == 0) continue;
+    if (shown_in[number].empty()) continue;
     const int edge = static_cast<int>(number);
     joint.displacements.push_back({edge,
                                    state.DisplacementOf(edge, -1),
                                    state.DisplacementOf(edge, 1),
                                    CovarianceOfMiddle(edge, state, equations),
-                                   state.edges[number].num_photographs});
+                                   std::move(shown_in[number])});
   }
   return joint;
 }

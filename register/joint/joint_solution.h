@@ -18,7 +18,7 @@ struct EdgeDisplacement {
   Eigen::Vector3d start_in_world = Eigen::Vector3d::Zero();
   Eigen::Vector3d end_in_world = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the edge's middle
-  int num_photographs = 0;                               // that show it
+  std::vector<int> photographs;                          // that show it, by their places
 };
 
 struct JointSolution {

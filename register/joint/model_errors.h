@@ -17,14 +17,18 @@ struct ModelErrorOptions {
   int min_photographs = 3;
   double min_sigmas = 4;
   double min_offset_sigmas = 0.04 / 0.03;
+  // Lines of one wall or level are off as one if they differ by less than this share of it.
+  double same_offset_share = 0.3;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "model error options: ") const;
 };
 
-// The lines that are off in all photographs that show them, the farthest first.
+// The lines that are off in all photographs that show them, the farthest first, and each followed
+// by those that are off as one with it. names: of the photographs.
 std::vector<ModelError> FindModelErrors(const EdgeModel& edge_model,
                                         const std::vector<EdgeDisplacement>& displacements,
+                                        const std::vector<std::string>& names,
                                         const ModelErrorOptions& options);
 
 }  // namespace groundglass

@@ -230,7 +230,9 @@ Json JsonFromModelError(const ModelError& error) {
   json["end"] = JsonFromSite(error.end_in_world);
   json["offset"] = JsonFromSite(error.offset_in_world);
   json["sigma"] = error.sigma;
-  json["num_photographs"] = error.num_photographs;
+  json["photographs"] = error.photographs;
+  json["num_photographs"] = error.photographs.size();
+  if (error.with_the_one_before) json["with_the_one_before"] = true;
   return json;
 }
 
@@ -300,7 +302,8 @@ std::vector<ModelError> ReadModelErrors(const std::filesystem::path& file) {
                         WorldFromJson(json.at("end")),
                         WorldFromJson(json.at("offset")),
                         json.at("sigma").get<double>(),
-                        json.at("num_photographs").get<int>()});
+                        json.value("photographs", std::vector<std::string>()),
+                        json.value("with_the_one_before", false)});
     }
     return errors;
   });

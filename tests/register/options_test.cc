@@ -183,11 +183,12 @@ TEST(RegistrationOptions, CheckNamesEachFieldOfRefinement) {
       {"min_noise_px", [](auto& o) { o.min_noise_px = 0; }},
       {"matching.outlier_share", [](auto& o) { o.matching.outlier_share = 0; }},
   });
-  [[maybe_unused]] const auto& [photographs, sigmas, offset] = ModelErrorOptions();
+  [[maybe_unused]] const auto& [photographs, sigmas, offset, same] = ModelErrorOptions();
   ExpectCheckNamesEach<ModelErrorOptions>({
       {"min_photographs", [](auto& o) { o.min_photographs = 0; }},
       {"min_sigmas", [](auto& o) { o.min_sigmas = kNotANumber; }},
       {"min_offset_sigmas", [](auto& o) { o.min_offset_sigmas = -1; }},
+      {"same_offset_share", [](auto& o) { o.same_offset_share = 2; }},
   });
 }
 

@@ -104,13 +104,16 @@ TEST_F(ReportOf, TellsVerdictsReasonsAndWhatMoved) {
 TEST_F(ReportOf, ListsWhereTheModelIsOffInSite) {
   WriteRegistrations();
   EXPECT_THAT(MakeReport(folder_), Not(HasSubstr("Where the model is off")));
-  const ModelError cornice = {"east wall / roof", {}, {1, 0, 0}, {0, 0.25, -0.3}, 0.05, 4};
+  const ModelError cornice = {
+      "east wall / roof", {}, {1, 0, 0}, {0, 0.25, -0.3}, 0.05, {"s1", "s2"}};
   WriteFileAtomically(
       folder_ / "registration.json",
       FormatRegistrations(ReadRegistrations(folder_ / "registration.json"), {cornice}));
   const std::string html = MakeReport(folder_);
   EXPECT_THAT(html, HasSubstr("Where the model is off"));
   EXPECT_THAT(html, HasSubstr("<td>east wall / roof</td>"));
+  EXPECT_THAT(html,
+              HasSubstr("<td>1.000 0.000 0.000</td><td class=\"n\">1.000</td><td>s1 s2</td>"));
   EXPECT_THAT(html, HasSubstr("<td class=\"n\">\u22120.250</td>"));  // south is positive
 }
 
@@ -341,7 +344,7 @@ TEST_F(ReportOf, NamesAreTextWhateverTheyHold) {
   std::vector<Registration> registrations = ReadRegistrations(folder_ / "registration.json");
   registrations[0].name = name;
   registrations[0].reasons = {"{{title}} <i>"};
-  const ModelError cornice = {name, {}, {1, 0, 0}, {0, 0.25, -0.3}, 0.05, 4};
+  const ModelError cornice = {name, {}, {1, 0, 0}, {0, 0.25, -0.3}, 0.05, {"s1", "s2"}};
   WriteFileAtomically(folder_ / "registration.json", FormatRegistrations(registrations, {cornice}));
   WriteFileAtomically(folder_ / "coverage.json",
                       R"({"covered_share": 0.002, "faces": [{"face": 1, "name": "<b>&\"x",

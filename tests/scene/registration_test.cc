@@ -206,7 +206,8 @@ TEST(RegistrationFile, ARivalThatIsNoCameraIsTold) {
 }
 
 TEST(RegistrationFile, KeepsWhereTheModelIsOff) {
-  const ModelError error = {"east wall / roof", {1, 2, 3}, {4, 2, 3}, {0, 0.25, -0.3}, 0.05, 4};
+  const ModelError error = {
+      "east wall / roof", {1, 2, 3}, {4, 2, 3}, {0, 0.25, -0.3}, 0.05, {"s1", "s5"}, true};
   const TemporaryFolder folder;
   const auto file = folder.Write("registration.json", FormatRegistrations({}, {error}));
   const std::vector<ModelError> read = ReadModelErrors(file);
@@ -216,7 +217,8 @@ TEST(RegistrationFile, KeepsWhereTheModelIsOff) {
   EXPECT_EQ(read[0].end_in_world, error.end_in_world);
   EXPECT_EQ(read[0].offset_in_world, error.offset_in_world);
   EXPECT_EQ(read[0].sigma, error.sigma);
-  EXPECT_EQ(read[0].num_photographs, 4);
+  EXPECT_EQ(read[0].photographs, error.photographs);
+  EXPECT_TRUE(read[0].with_the_one_before);
   // People read `site`, where y counts southwards.
   EXPECT_NE(ReadTextFile(file).find("-0.25"), std::string::npos);
 }

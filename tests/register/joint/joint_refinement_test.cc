@@ -30,7 +30,7 @@ TEST(RefineTogether, AnEdgeThatThePlanHasTooLowIsFoundAndDragsNoCamera) {
     const ModelEdge& edge = edge_model.edges[found.edge];
     const double up = (found.start_in_world.z() + found.end_in_world.z()) / 2;
     const bool is_eave = edge.start_in_world.z() == 8 && edge.end_in_world.z() == 8;
-    if (is_eave && found.num_photographs >= 3 && edge.start_in_world.y() < -1 &&
+    if (is_eave && found.photographs.size() >= 3 && edge.start_in_world.y() < -1 &&
         edge.end_in_world.y() < -1) {
       ++num_shed;
       EXPECT_NEAR(up, 0.3, 0.06);
@@ -40,12 +40,13 @@ TEST(RefineTogether, AnEdgeThatThePlanHasTooLowIsFoundAndDragsNoCamera) {
   EXPECT_EQ(num_shed, 1);  // the long eave, in front
 
   // The list of what is off holds eaves of the lean-to and nothing else.
-  const std::vector<ModelError> errors = FindModelErrors(edge_model, displacements, {});
+  const std::vector<ModelError> errors =
+      FindModelErrors(edge_model, displacements, {"s1", "s2", "s3", "s4"}, {});
   ASSERT_FALSE(errors.empty());
   for (const ModelError& error : errors) {
     EXPECT_EQ(error.start_in_world.z(), 8) << error.name;
     EXPECT_NEAR(error.offset_in_world.z(), 0.3, 0.06) << error.name;
-    EXPECT_GE(error.num_photographs, 3);
+    EXPECT_GE(error.photographs.size(), 3u);
     EXPECT_GT(error.sigma, 0);
   }
 }
@@ -76,7 +77,7 @@ TEST(RefineTogether, AWallThatIsOffMovesWithAllItsEdgesAndDragsNoCamera) {
   for (const EdgeDisplacement& found : displacements) {
     const ModelEdge& edge = edge_model.edges[found.edge];
     if (edge.start_in_world.x() != 40 || edge.end_in_world.x() != 40) continue;
-    if (found.num_photographs < 3) continue;
+    if (found.photographs.size() < 3) continue;
     ++num_east;
     EXPECT_NEAR(found.start_in_world.x(), 0.5, 0.15) << found.edge;
   }
@@ -103,7 +104,7 @@ TEST(RefineTogether, ALawnThatHidesTheFootOfAllWallsDragsNoCamera) {
   EXPECT_LT(MeanVertexErrorOfHousePx(model, alignments), 0.35);
   int num_ground = 0;
   for (const EdgeDisplacement& found : displacements) {
-    if (!edge_model.tolerances[found.edge].on_ground || found.num_photographs < 2) continue;
+    if (!edge_model.tolerances[found.edge].on_ground || found.photographs.size() < 2) continue;
     ++num_ground;
     EXPECT_NEAR(found.start_in_world.z(), 0.4, 0.1);
     EXPECT_EQ(found.start_in_world, found.end_in_world);
@@ -169,7 +170,7 @@ TEST(FindModelErrors, AnExactModelHasNone) {
   std::vector<PhotographAlignment> alignments = AlignPhotographsOfHouse(model, edge_model);
   const std::vector<EdgeDisplacement> displacements = RefineSet(edge_model, {}, alignments);
   EXPECT_FALSE(displacements.empty());
-  EXPECT_TRUE(FindModelErrors(edge_model, displacements, {}).empty());
+  EXPECT_TRUE(FindModelErrors(edge_model, displacements, {"s1", "s2", "s3", "s4"}, {}).empty());
 }
 
 TEST(RefineTogether, PhotographsOfOneLensEndWithOneK1) {
