@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/model_arguments.h"
 #include "cli/option_range.h"
+#include "pipeline/photograph_selection.h"
 #include "scene/advice/advice.h"
 #include "scene/error.h"
 #include "scene/feature_edges.h"
@@ -110,6 +111,9 @@ int RunCheck(const CheckArguments& arguments) {
     Scene& scene = report.check.scene;
     const auto others = DescribeOtherModels(arguments.scene, scene.model_file);
     if (others && !scene.model_file.empty()) scene.warnings.push_back(*others);
+  }
+  for (const std::string& fault : FindPairFaults(report.check.scene)) {
+    report.check.faults.push_back(fault);
   }
   if (arguments.with_templates) return WriteTemplates(report.check.scene, arguments);
   report.oddities = FindOddities(report.check.scene, options.model);

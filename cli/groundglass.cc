@@ -93,6 +93,14 @@ int RunGroundglass(int argc, char** argv) {
   } catch (const std::exception& error) {
     return Fail(kExitWrongInput, error.what(), as_json);
   }
+  // What was printed may be what somebody asked for, and lost.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    return Fail(
+        kExitWrongInput,
+        "cannot write standard output: the disk that it goes to may be full, or the program "
+        "that reads it has ended",
+        false);
+  }
   return exit_status;
 }
 

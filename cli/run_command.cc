@@ -97,7 +97,10 @@ JobObserver MakeRunPrinter(const RunArguments& arguments, const Scene& scene) {
 // What would be done, what is there already, and which photographs would be left out.
 int DryRun(const RunArguments& arguments, const Scene& scene) {
   const fs::path& out = arguments.registering.out_folder;
-  CheckSelection(arguments.baking.selection, scene);
+  const std::vector<std::string> left_out = CheckSelection(arguments.baking.selection, scene);
+  PrintWarnings(left_out);
+  std::vector<std::string> warnings = scene.warnings;
+  warnings.insert(warnings.end(), left_out.begin(), left_out.end());
   const std::vector<std::string> kept = FindKeptStages(scene, out, ReadMainJobOptions(arguments));
   std::vector<std::string> unreadable;
   for (const UnreadablePhotograph& photograph : scene.unreadable) {
@@ -119,7 +122,7 @@ int DryRun(const RunArguments& arguments, const Scene& scene) {
                      {"faces", scene.model.faces.size()},
                      {"kept", kept},
                      {"unreadable", unreadable},
-                     {"warnings", scene.warnings}});
+                     {"warnings", warnings}});
 }
 
 int Run(const RunArguments& arguments) {
@@ -142,6 +145,7 @@ int Run(const RunArguments& arguments) {
   if (common.json) {
     std::vector<std::string> told = scene.warnings;
     told.insert(told.end(), result.remarks.begin(), result.remarks.end());
+    told.insert(told.end(), result.selection_faults.begin(), result.selection_faults.end());
     PrintRegistrationsJson(result.registered, told, result.failures);
   } else {
     PrintVerdictCounts(registrations, scene.warnings.size());
@@ -152,9 +156,9 @@ int Run(const RunArguments& arguments) {
   }
   PrintWarnings(result.remarks);
   PrintWarnings(result.registered.warnings);
-  PrintWarnings(result.mask_faults);
+  PrintWarnings(result.selection_faults);
   if (!result.failures.empty()) return kExitWrongInput;
-  return result.mask_faults.empty() ? ExitStatusOf(registrations) : kExitNeedsReview;
+  return result.selection_faults.empty() ? ExitStatusOf(registrations) : kExitNeedsReview;
 }
 
 }  // namespace

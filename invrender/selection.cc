@@ -128,10 +128,10 @@ void RestrictToFaces(const PolygonModel& model,
   }
 }
 
-void RestrictToPairs(const std::filesystem::path& file,
-                     const PolygonModel& model,
-                     std::vector<BakePhotograph>& photographs,
-                     std::span<const PhotographName> known) {
+std::vector<std::string> RestrictToPairs(const std::filesystem::path& file,
+                                         const PolygonModel& model,
+                                         std::vector<BakePhotograph>& photographs,
+                                         std::span<const PhotographName> known) {
   const CsvTable table(file);
   const std::vector<std::string>& header = table.header();
   const auto column = [&](const char* name) {
@@ -144,11 +144,16 @@ void RestrictToPairs(const std::filesystem::path& file,
   }
   const std::vector<PhotographName> names = NamesOf(photographs);
   std::map<int, std::set<size_t>> photographs_of_face;
+  std::vector<std::string> faults;
+  const auto leave_out = [&](const CsvRow& row, const std::string& why) {
+    faults.push_back(Error(file, row.line, why + "; this line is left out").what());
+  };
   for (const CsvRow& row : table.rows()) {
     const std::string& image = row.fields[image_column];
     const std::vector<int> faces = FacesOfWord(model, row.fields[face_column]);
     if (faces.empty()) {
-      throw Error(file, row.line, NoSuchFace(model, row.fields[face_column]));
+      leave_out(row, NoSuchFace(model, row.fields[face_column]));
+      continue;
     }
     std::optional<size_t> photograph;
     try {
@@ -158,7 +163,8 @@ void RestrictToPairs(const std::filesystem::path& file,
                     "; there are" + ListNames(known));
       }
     } catch (const Error& error) {
-      throw Error(file, row.line, error.what());
+      leave_out(row, error.what());
+      continue;
     }
     // One that is not textured from, after its verdict, still keeps others off its face.
     for (const int face : faces) {
@@ -177,6 +183,7 @@ void RestrictToPairs(const std::filesystem::path& file,
       return paired != photographs_of_face.end() && paired->second.count(i) == 0;
     });
   }
+  return faults;
 }
 
 }  // namespace groundglass

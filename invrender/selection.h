@@ -33,12 +33,12 @@ void RestrictToFaces(const PolygonModel& model,
 
 // Reads pairs.csv (`image,face` on its first line; then an image's name and a face's number or name
 // on each). A face that the table names is textured only by the photographs paired with it; one
-// that it does not name, by all. Throws Error naming the line at fault; a photograph that is
-// neither among these nor among `known` (all of the scene's, whatever their verdict) is one, if
-// those are given.
-void RestrictToPairs(const std::filesystem::path& file,
-                     const PolygonModel& model,
-                     std::vector<BakePhotograph>& photographs,
-                     std::span<const PhotographName> known = {});
+// that it does not name, by all. A line that names nothing is left out, and returned with what is
+// wrong with it; a photograph that is neither among these nor among `known` (all of the scene's,
+// whatever their verdict) is nothing, if those are given. Throws Error where this is no such table.
+std::vector<std::string> RestrictToPairs(const std::filesystem::path& file,
+                                         const PolygonModel& model,
+                                         std::vector<BakePhotograph>& photographs,
+                                         std::span<const PhotographName> known = {});
 
 }  // namespace groundglass

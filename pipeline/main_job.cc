@@ -247,7 +247,7 @@ MainJobResult RunMainJob(const Scene& scene,
       SelectPhotographs(scene, result.registered.registrations, options.selection.accepted_only);
   bool is_narrowed = false;
   attempts.Try("texture", [&] {
-    result.mask_faults = NarrowPhotographs(options.selection, scene, photographs);
+    result.selection_faults = NarrowPhotographs(options.selection, scene, photographs);
     is_narrowed = true;
   });
   if (photographs.empty()) {

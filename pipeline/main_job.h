@@ -50,10 +50,9 @@ struct MainJobResult {
   RegisteredScene registered;
   // Of the model's surface, what has a texture, 0 to 1; nothing if there is no texture.
   std::optional<double> covered_share;
-  ImageSize stills;  // frame of the pictures, px; 0 x 0 if there are none
-  std::vector<std::string>
-      mask_faults;                   // photographs whose mask cannot be used: not in the texture
-  std::vector<std::string> remarks;  // lines for a person on what was not made
+  ImageSize stills;                           // frame of the pictures, px; 0 x 0 if there are none
+  std::vector<std::string> selection_faults;  // masks and lines of pairs.csv that cannot be used
+  std::vector<std::string> remarks;           // lines for a person on what was not made
   // "STAGE: what went wrong" for each stage that failed once the tags were corrected.
   std::vector<std::string> failures;
 };

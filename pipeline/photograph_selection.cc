@@ -30,6 +30,18 @@ std::vector<std::string> DropThoseWithFaultyMasks(const std::filesystem::path& f
   return faults;
 }
 
+std::vector<BakePhotograph> AllOf(const Scene& scene) {
+  std::vector<BakePhotograph> photographs;
+  for (const Photograph& photograph : scene.photographs) {
+    BakePhotograph& bake = photographs.emplace_back();
+    bake.name = photograph.name;
+    bake.image_file = photograph.image_file;
+    bake.camera.width_px = photograph.size.width;
+    bake.camera.height_px = photograph.size.height;
+  }
+  return photographs;
+}
+
 }  // namespace
 
 std::vector<std::string> NarrowPhotographs(const PhotographSelection& selection,
@@ -50,7 +62,9 @@ std::vector<std::string> NarrowPhotographs(const PhotographSelection& selection,
   const std::filesystem::path pairs = scene.folder / "pairs.csv";
   if (std::filesystem::exists(pairs)) {
     // Those that cannot be used or were left out included: a table that names them is right.
-    RestrictToPairs(pairs, scene.model, photographs, AllPhotographNames(scene));
+    const std::vector<std::string> left_out =
+        RestrictToPairs(pairs, scene.model, photographs, AllPhotographNames(scene));
+    faults.insert(faults.end(), left_out.begin(), left_out.end());
   }
   if (!selection.only_faces.empty()) {
     RestrictToFaces(scene.model, FindFaces(scene.model, selection.only_faces), photographs);
@@ -58,21 +72,26 @@ std::vector<std::string> NarrowPhotographs(const PhotographSelection& selection,
   return faults;
 }
 
-void CheckSelection(const PhotographSelection& selection, const Scene& scene) {
-  std::vector<BakePhotograph> photographs;
-  for (const Photograph& photograph : scene.photographs) {
-    BakePhotograph& bake = photographs.emplace_back();
-    bake.name = photograph.name;
-    bake.image_file = photograph.image_file;
-    bake.camera.width_px = photograph.size.width;
-    bake.camera.height_px = photograph.size.height;
+std::vector<std::string> FindPairFaults(const Scene& scene) {
+  const std::filesystem::path pairs = scene.folder / "pairs.csv";
+  if (!std::filesystem::exists(pairs) || scene.model.faces.empty()) return {};
+  std::vector<BakePhotograph> photographs = AllOf(scene);
+  try {
+    return RestrictToPairs(pairs, scene.model, photographs, AllPhotographNames(scene));
+  } catch (const Error& error) {
+    return {error.what()};
   }
-  NarrowPhotographs(selection, scene, photographs);
+}
+
+std::vector<std::string> CheckSelection(const PhotographSelection& selection, const Scene& scene) {
+  std::vector<BakePhotograph> photographs = AllOf(scene);
+  std::vector<std::string> faults = NarrowPhotographs(selection, scene, photographs);
   if (photographs.empty()) {
     throw Error(
         "option --exclude: it leaves no photograph for the texture; register corrects tags "
         "alone");
   }
+  return faults;
 }
 
 }  // namespace groundglass

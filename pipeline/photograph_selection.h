@@ -22,15 +22,19 @@ struct PhotographSelection {
 };
 
 // Leaves those of the photographs that the selection and the scene's pairs.csv leave, each with its
-// faces and its mask. One whose mask from masks_folder cannot be used is left out; returns a line
-// for each of these. Throws Error for faces, masks and pairs that are wrong. A name in `exclude`
-// that none of these has is passed over: ReadScene knows which names there are.
+// faces and its mask. One whose mask from masks_folder cannot be used is left out, and so is a line
+// of pairs.csv that names nothing; returns a line for each of these. Throws Error for faces, masks
+// and pairs that are wrong. A name in `exclude` that none of these has is passed over: ReadScene
+// knows which names there are.
 std::vector<std::string> NarrowPhotographs(const PhotographSelection& selection,
                                            const Scene& scene,
                                            std::vector<BakePhotograph>& photographs);
 
-// Throws the Errors that NarrowPhotographs would throw for the scene's photographs, and one if it
-// would leave none of them: before the work begins.
-void CheckSelection(const PhotographSelection& selection, const Scene& scene);
+// What is wrong with the scene's pairs.csv, a line each; nothing where it has none.
+std::vector<std::string> FindPairFaults(const Scene& scene);
+
+// What NarrowPhotographs would return for the scene's photographs, before the work begins. Throws
+// its Errors, and one if it would leave no photograph.
+std::vector<std::string> CheckSelection(const PhotographSelection& selection, const Scene& scene);
 
 }  // namespace groundglass

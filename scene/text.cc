@@ -148,6 +148,31 @@ NumberAmongWords FindNumber(std::string_view text) {
                                                 : NumberAmongWords{};
 }
 
+// Jan, January, janvier: what begins as months do in the languages of most spreadsheets.
+bool IsMonth(std::string_view word) {
+  constexpr std::array<std::string_view, 16> kMonths = {"jan",
+                                                        "feb",
+                                                        "mar",
+                                                        "apr",
+                                                        "may",
+                                                        "mai",
+                                                        "jun",
+                                                        "jul",
+                                                        "aug",
+                                                        "sep",
+                                                        "oct",
+                                                        "okt",
+                                                        "nov",
+                                                        "dec",
+                                                        "dez",
+                                                        "dic"};
+  std::string start(word.substr(0, 3));
+  std::transform(start.begin(), start.end(), start.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));
+  });
+  return std::find(kMonths.begin(), kMonths.end(), start) != kMonths.end();
+}
+
 }  // namespace
 
 std::string WhyNoNumber(std::string_view word) { return WhyNoNumber(word, '.'); }
@@ -177,6 +202,13 @@ std::string WhyNoNumber(std::string_view word, char decimal_mark) {
   if (const std::string digits = WithDigitsForLetters(plain); ParseNumber(digits)) {
     return fault + "; is it " + written(digits) + ", with a letter in place of a digit?";
   }
+  // 1.4D+01, as programs in Fortran write it.
+  if (const size_t exponent = plain.find_first_of("dD");
+      exponent != std::string_view::npos && exponent > 0) {
+    std::string with_e(plain);
+    with_e[exponent] = 'E';
+    if (ParseNumber(with_e)) return fault + "; write " + written(with_e);
+  }
   const size_t middle = plain.find_first_of(":/");
   if (middle != std::string_view::npos) {
     const std::optional<double> above = ParseNumber(WithoutBlanks(plain.substr(0, middle)));
@@ -186,6 +218,12 @@ std::string WhyNoNumber(std::string_view word, char decimal_mark) {
     }
   }
   if (const NumberAmongWords found = FindNumber(plain); !found.other.empty()) {
+    if (found.other.starts_with("'") || found.other.starts_with("\u2032")) {
+      return fault + "; write feet with decimals: 3' 6\" is " + written("3.5");
+    }
+    if (IsMonth(found.other)) {
+      return fault + "; a spreadsheet has made a date of it: look up what was written";
+    }
     return fault + "; write " + written(found.number) + " alone, without " + Quote(found.other);
   }
   return fault;

@@ -124,7 +124,11 @@ std::vector<Advice> FindOddities(const Scene& scene,
     AdviseOnTags(context, doubts);
   }
   AdviseOnFrames(context);
-  if (with_pictures) AdviseOnDoubles(context);
+  if (with_pictures) {
+    AdviseOnDoubles(context);
+    // Where the tags are misread, what masks hide of the model means nothing.
+    if (!is_misread) AdviseOnMasks(context);
+  }
   if (!fits.empty()) AdviseOnPictures(context, fits);
   return found;
 }

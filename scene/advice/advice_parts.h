@@ -80,6 +80,8 @@ bool SuitsPicture(const Photograph& photograph);
 // A part of a picture with the whole frame's `a`, as the other photographs tell.
 bool SeemsCropped(const Scene& scene, const Photograph& photograph);
 void AdviseOnFrames(const AdviceContext& context);
+// Masks that hide the building in place of what stands before it; it reads masks.
+void AdviseOnMasks(const AdviceContext& context);
 // Pictures that are there twice, and tags that were copied; it reads pictures.
 void AdviseOnDoubles(const AdviceContext& context);
 

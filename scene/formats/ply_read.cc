@@ -49,7 +49,9 @@ class PlyNumbers {
     const size_t least = is_ascii_ ? 2 : PlyTypeSize(item_type);
     const size_t left = is_ascii_ ? words_.NumBytesLeft() + 1 : left_.size();
     if (!(count >= 0) || count != std::floor(count) || count > static_cast<double>(left / least)) {
-      Fail(what + " has " + FormatNumber(count) + " numbers, which the file does not hold");
+      Fail(what + " has " + FormatNumber(count) +
+           " numbers, more than are left in the file: it may be cut short; copy it again, or "
+           "export it once more");
     }
     return static_cast<size_t>(count);
   }

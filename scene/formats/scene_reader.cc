@@ -75,8 +75,29 @@ SceneReading SceneReader::Read(bool decode_pictures) {
   return {std::move(result_), std::move(scene_faults_), std::move(stray_faults)};
 }
 
+// What stands in images/ under a photograph's name and is no file; nothing if there is none.
+std::optional<std::string> SceneReader::OtherThanAFile(const std::string& name) const {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "images", error)) {
+    if (entry.path().stem() != name || entry.is_regular_file(error)) continue;
+    const std::string what = entry.is_symlink(error)     ? "a link that leads to no file"
+                             : entry.is_directory(error) ? "a folder"
+                                                         : "no file";
+    return "images/" + entry.path().filename().string() + " is " + what +
+           ": put the picture itself there";
+  }
+  return std::nullopt;
+}
+
 // The models of other names in the folder, and what to do with them; empty if there are none.
 std::string SceneReader::OtherModels() const {
+  for (const fs::path& file : ListFiles(folder_)) {
+    const bool is_known = HasExtension(file, kModelExtensions) || file.extension() == ".mtl";
+    if (file.stem() != "model" || is_known) continue;
+    return "; " + file.filename().string() +
+           " is of a kind that is not read: export it as one of these from the program that made "
+           "it";
+  }
   std::string list;
   for (const fs::path& file : ListFiles(folder_)) {
     if (!HasExtension(file, kModelExtensions)) continue;
@@ -218,8 +239,9 @@ void SceneReader::Match(const FilesByStem& images) {
       }
     }
     Warn(file,
-         "tag of " + name + " without a photograph; expected images/" + name + " with " +
-             kImageNames + NearestName(name, left));
+         "tag of " + name + " without a photograph; " +
+             OtherThanAFile(name).value_or("expected images/" + name + " with " + kImageNames +
+                                           NearestName(name, left)));
   }
   for (const auto& [name, place] : known_names_) {
     const auto image = image_of_tag.find(name);

@@ -65,6 +65,7 @@ class SceneReader {
     scene_faults_.push_back(line);
   }
   std::string OtherModels() const;
+  std::optional<std::string> OtherThanAFile(const std::string& name) const;
   // Of one photograph, its tag or its masks.
   void FaultOf(const std::string& name, const std::string& line) {
     result_.faults.push_back(line);

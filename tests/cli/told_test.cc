@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdlib>
+
 namespace groundglass {
 namespace {
 
@@ -41,6 +43,17 @@ TEST(Told, WhichOfSeveralModelsIsRead) {
   }
 }
 
+// What is printed may be all that was asked for.
+TEST(Told, ThatStandardOutputCannotBeWritten) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1"});
+  const std::string command = std::string(GROUNDGLASS_PROGRAM) + " check " + scene.string() +
+                              " --json > /dev/full 2> " + (work / "err").string();
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_THAT(ReadAll(work / "err"), HasSubstr("cannot write standard output"));
+}
+
 TEST(Told, WhichPhotographsThereAreForATableOfPairs) {
   const TemporaryFolder work;
   const fs::path scene = work / "scene";
@@ -53,7 +66,14 @@ TEST(Told, WhichPhotographsThereAreForATableOfPairs) {
   EXPECT_THAT(run("s1,1\ns9,1\n").err,
               HasSubstr("pairs.csv:3: no photograph is called 's9'; there are s1, s2"));
   EXPECT_THAT(run("s01,1\n").err, HasSubstr("is it s1.jpg?"));
-  EXPECT_EQ(run("s9,1\n").status, 1);
+  // It costs itself, and not the job.
+  EXPECT_EQ(run("s9,1\n").status, 0);
+  WriteAll(scene / "pairs.csv", "image,face\ns9,1\ns1,999\n");
+  const ProgramRun check = RunProgram({"check", scene.string()});
+  EXPECT_THAT(check.out, HasSubstr("pairs.csv:2: no photograph is called 's9'"));
+  EXPECT_THAT(check.out, HasSubstr("pairs.csv:3: no face is called '999'"));
+  EXPECT_EQ(check.status, 1);
+  std::filesystem::remove(scene / "pairs.csv");
   // One that cannot be read is there all the same.
   EXPECT_EQ(run("s1,1\ns2,1\n").status, 0);
 }

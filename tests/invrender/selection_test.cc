@@ -16,6 +16,7 @@
 namespace groundglass {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -77,7 +78,21 @@ TEST(RestrictToPairs, NamedFacesTakeOnlyTheirPhotographs) {
   EXPECT_THAT(*photographs[1].faces, ElementsAre(1));
 }
 
-TEST(RestrictToPairs, FaultsNameTheirLine) {
+TEST(RestrictToPairs, ALineThatNamesNothingIsLeftOutAlone) {
+  const TemporaryFolder folder;
+  const PolygonModel model = FiveWalls();
+  std::vector<BakePhotograph> photographs = Named({"s1", "s2"});
+  const std::vector<PhotographName> known = NamesOf(photographs);
+  WriteFileAtomically(folder / "pairs.csv", "image,face\ns9,1\ns2,2\ns1,9\n");
+  EXPECT_THAT(RestrictToPairs(folder / "pairs.csv", model, photographs, known),
+              ElementsAre(AllOf(HasSubstr("pairs.csv:2: no photograph is called 's9'"),
+                                HasSubstr("this line is left out")),
+                          HasSubstr("pairs.csv:4: no face is called '9'")));
+  EXPECT_THAT(*photographs[0].faces, ElementsAre(0, 2, 3, 4));
+  EXPECT_THAT(*photographs[1].faces, ElementsAre(0, 1, 2, 3, 4));
+}
+
+TEST(RestrictToPairs, WhatIsNoTableOfPairsIsAnError) {
   const TemporaryFolder folder;
   const PolygonModel model = FiveWalls();
   std::vector<BakePhotograph> photographs = Named({"s1"});
@@ -88,7 +103,6 @@ TEST(RestrictToPairs, FaultsNameTheirLine) {
   EXPECT_THAT(message("s1,1\n"), HasSubstr("pairs.csv:1: expected the first line"));
   EXPECT_THAT(message("image,face\ns1\n"),
               HasSubstr("pairs.csv:2: has 1 fields; the header has 2"));
-  EXPECT_THAT(message("image,face\ns1,9\n"), HasSubstr("pairs.csv:2: no face is called '9'"));
 }
 
 TEST(UseMasks, TakesThoseThatAreThere) {

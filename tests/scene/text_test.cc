@@ -20,5 +20,13 @@ TEST(FormatNumber, LosesNoBit) {
   }
 }
 
+TEST(WhyNoNumber, NoAdviceChangesWhatWasMeant) {
+  EXPECT_EQ(WhyNoNumber("1.4D+01"), "'1.4D+01' is not a number; write 1.4E+01");
+  EXPECT_EQ(WhyNoNumber("137'"), "'137'' is not a number; write feet with decimals: 3' 6\" is 3.5");
+  EXPECT_EQ(WhyNoNumber("05. Jan"),
+            "'05. Jan' is not a number; a spreadsheet has made a date of it: look up what was "
+            "written");
+}
+
 }  // namespace
 }  // namespace groundglass

@@ -64,6 +64,20 @@ TEST(ReadScene, ThrowsTheFirstFaultOfTheWhole) {
   std::filesystem::remove(folder / "model.osu");
   folder.Write("views/s2.view", "x 1");
   EXPECT_THAT(ThrownMessage([&] { ReadScene(folder.path()); }), HasSubstr("no model; expected"));
+  folder.Write("model.skp", "SketchUp");
+  EXPECT_THAT(ThrownMessage([&] { ReadScene(folder.path()); }),
+              HasSubstr("model.skp is of a kind that is not read: export it as one of these"));
+}
+
+TEST(ReadScene, WhatIsNoFileUnderAPhotographsNameIsTold) {
+  const SceneFolder folder;
+  std::filesystem::remove(folder / "images/s2.jpg");
+  const auto warnings = [&] { return CheckScene(folder.path()).scene.warnings; };
+  std::filesystem::create_symlink("elsewhere/s2.jpg", folder / "images/s2.jpg");
+  EXPECT_THAT(warnings(), Contains(HasSubstr("images/s2.jpg is a link that leads to no file")));
+  std::filesystem::remove(folder / "images/s2.jpg");
+  std::filesystem::create_directory(folder / "images/s2.jpg");
+  EXPECT_THAT(warnings(), Contains(HasSubstr("images/s2.jpg is a folder")));
 }
 
 TEST(ReadScene, ADamagedPictureIsToldThoughItHasNoTag) {
