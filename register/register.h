@@ -21,13 +21,14 @@
 //             ConditionOnControlPoints  what a person pointed at -> a narrower prior
 //   edges/    EdgeEvidence              photograph, mask         -> gradients at every scale
 //             SampleVisibleEdges        model, camera            -> samples along edges it sees
-//             FindCandidateSamples      samples, evidence        -> where each may be in the
-//             picture
+//             FindCandidateSamples      samples, evidence        -> where in the picture each is
+//             FindEdgeGroups            model                    -> edges that are off as one
 //   search/   FindHypotheses            samples, evidence, prior -> starts over the whole prior
 //             ScoreAlignment            samples, evidence        -> how much speaks for a camera
 //             FindEdgeConflict          samples, a camera        -> parts that want another camera
 //   refine/   RefinePhotograph          a start                  -> the best camera near it
 //             FindSolutions, FindSecondBest  the three above          -> solutions, best first
+//             FindGroupProfiles         a solution, groups       -> how it suits groups elsewhere
 //   ties/     MatchWithColmap           pictures, pairs of them  -> keypoints that match (if asked)
 //             FollowMatches             matches                  -> tracks through photographs
 //             FindTies                  cameras found so far     -> what photographs show alike
@@ -36,7 +37,9 @@
 //             FindModelErrors           displaced edges          -> lines that the model has wrong
 //   verdict/  Judge...                  score, change, precision -> accepted, review, rejected, why
 //
-// AlignPhotograph runs them for one photograph, RefineSet for all of them; RegisterScene is both.
+// AlignPhotograph runs them for one photograph. FindOverclaim and FindDisplacedGroups may have all
+// photographs aligned anew, up to seven times in all: with wider sigmas, or parts of the model
+// elsewhere. RefineSet is for all of them together; RegisterScene does all of this.
 namespace groundglass {
 
 struct RegisteredScene {
