@@ -243,12 +243,12 @@ void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit un
   const std::string unit_name = UnitName(unit);
   std::printf(
       "\nThe photographs see these lines of the model elsewhere (x east, y south, z up):\n");
-  for (const ModelError& error : model_errors) {
+  for (size_t i = 0; i < model_errors.size();) {
+    const ModelError& error = model_errors[i];
     const Eigen::Vector3d offset_in_site = SiteFromWorld(error.offset_in_world);
     const Eigen::Vector3d start_in_site = SiteFromWorld(error.start_in_world);
     const Eigen::Vector3d end_in_site = SiteFromWorld(error.end_in_world);
-    std::printf("%s%-40s off by %+.2f %+.2f %+.2f %s, +-%.2f\n",
-                error.with_the_one_before ? "  with it " : "",
+    std::printf("%-40s off by %+.2f %+.2f %+.2f %s, +-%.2f\n",
                 error.name.c_str(),
                 ZeroIfRounded(offset_in_site.x(), 2),
                 ZeroIfRounded(offset_in_site.y(), 2),
@@ -264,6 +264,16 @@ void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit un
                 ZeroIfRounded(end_in_site.y(), 2),
                 ZeroIfRounded(end_in_site.z(), 2),
                 fmt::format("{}", fmt::join(error.photographs, " ")).c_str());
+    const size_t first_with_it = ++i;
+    while (i < model_errors.size() && model_errors[i].with_the_one_before) ++i;
+    if (i > first_with_it) {
+      std::printf("    and as much, with it: %s%s\n",
+                  model_errors[first_with_it].name.c_str(),
+                  i - first_with_it > 1 ? fmt::format(" and {} more (registration.json has them)",
+                                                      i - first_with_it - 1)
+                                              .c_str()
+                                        : "");
+    }
   }
 }
 
