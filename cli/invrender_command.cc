@@ -182,9 +182,9 @@ int RunInvrender(const InvrenderArguments& arguments) {
   RequireSoundPoses(scene);
   std::vector<std::string> unreadable = DescribeUnreadable(scene);
   std::vector<BakePhotograph> photographs = Select(arguments, scene);
-  const std::vector<std::string> mask_faults =
+  const std::vector<std::string> selection_faults =
       NarrowPhotographs(arguments.bake.selection, scene, photographs);
-  unreadable.insert(unreadable.end(), mask_faults.begin(), mask_faults.end());
+  unreadable.insert(unreadable.end(), selection_faults.begin(), selection_faults.end());
   if (arguments.common.dry_run) {
     return TellDryRun(arguments.common,
                       "texture " + std::to_string(scene.model.faces.size()) + " faces from " +

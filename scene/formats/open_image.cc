@@ -3,6 +3,9 @@
 #include "scene/formats/open_image.h"
 
 #include "scene/formats/jpeg_file.h"
+#include "scene/formats/webp_exif.h"
+
+#include <OpenImageIO/tiffutils.h>
 
 #include <algorithm>
 #include <limits>
@@ -65,6 +68,16 @@ OpenImage::OpenImage(const std::filesystem::path& file) : file_(file) {
   // Colours as they are stored, not multiplied by the alpha that is going to be dropped.
   config["oiio:UnassociatedAlpha"] = 1;
   Open(config);
+  if (kind_.reader == "webp") {
+    const std::string exif = ReadWebpExif(file);
+    if (!exif.empty()) OIIO::decode_exif(exif, spec_);
+  }
+  if (spec_.get_string_attribute("tiff:ColorSpace").find("LAB") != std::string::npos) {
+    throw Error(
+        file,
+        CannotRead("its colours are CIELAB, and not red, green and blue; convert it to sRGB "
+                   "with an image editor"));
+  }
   LookForInks(config);
   if (spec_.get_string_attribute("oiio:ColorSpace") == "KodakLog") {
     warnings_.push_back(

@@ -31,6 +31,9 @@ std::string ReadFileBytes(const std::filesystem::path& file) {
 
 std::string ReadTextFile(const std::filesystem::path& file) {
   std::string bytes = ReadFileBytes(file);
+  if (bytes.starts_with("{\\rtf")) {
+    throw Error(file, "this is a rich-text document (RTF); save it as plain text");
+  }
   const bool is_utf16 = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
   return is_utf16 ? Utf8FromBytes(bytes).text : bytes;
 }

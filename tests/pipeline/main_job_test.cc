@@ -101,7 +101,7 @@ TEST(MainJob, IsOneCallThatKeepsWhatIsThereAndSurvivesAStageThatFails) {
   ASSERT_EQ(result.registered.registrations.size(), 2u);
   EXPECT_EQ(result.registered.registrations[0].name, "s1");
   EXPECT_THAT(result.failures, IsEmpty());
-  EXPECT_THAT(result.mask_faults, IsEmpty());
+  EXPECT_THAT(result.selection_faults, IsEmpty());
   ASSERT_TRUE(result.covered_share.has_value());
   EXPECT_GT(*result.covered_share, 0.1);
   EXPECT_LT(*result.covered_share, 1);

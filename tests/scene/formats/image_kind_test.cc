@@ -77,6 +77,41 @@ INSTANTIATE_TEST_SUITE_P(
     EveryFormatTest,
     testing::Values(".jpg", ".png", ".tif", ".ppm", ".bmp", ".webp", ".heic", ".jp2", ".sgi"));
 
+// A TIFF header, and a directory that holds the orientation alone.
+TEST(ImageKind, AWebpThatItsExifTurnsIsTurned) {
+  const TemporaryFolder folder;
+  if (!OIIO::ImageOutput::create("a.webp")) {
+    OIIO::geterror();
+    GTEST_SKIP() << "OpenImageIO here cannot write .webp";
+  }
+  WritePages(folder / "a.webp", {ColourRamp(30, 20)});
+  std::string bytes = ReadTextFile(folder / "a.webp");
+  const std::string exif("II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0", 26);
+  bytes += "EXIF" + std::string("\x1A\0\0\0", 4) + exif;
+  bytes[4] = static_cast<char>((bytes.size() - 8) & 0xFF);
+  bytes[5] = static_cast<char>((bytes.size() - 8) >> 8 & 0xFF);
+  const Image8 turned = ReadSrgb8(folder.Write("turned.webp", bytes));
+  EXPECT_EQ(turned.width, 20);
+  EXPECT_EQ(turned.height, 30);
+  EXPECT_EQ(ReadImageSize(folder / "turned.webp").width, 20);
+  // A block that is cut, or says that it is larger than the file.
+  bytes[bytes.size() - exif.size() - 4] = '\x7F';
+  EXPECT_EQ(ReadSrgb8(folder.Write("cut.webp", bytes)).width, 30);
+}
+
+TEST(ImageKind, LabIsNoRgb) {
+  const TemporaryFolder folder;
+  WritePages(folder / "a.tif", {ColourRamp(30, 20)});
+  std::string bytes = ReadTextFile(folder / "a.tif");
+  // The photometric interpretation: a short, RGB (2), which becomes CIELAB (8).
+  const std::string rgb("\x06\x01\x03\0\x01\0\0\0\x02\0", 10);
+  const size_t at = bytes.find(rgb);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 8] = 8;
+  EXPECT_THAT(ThrownMessage([&] { ReadSrgb8(folder.Write("lab.tif", bytes)); }),
+              HasSubstr("its colours are CIELAB"));
+}
+
 TEST(ImageKind, TargaGoesByItsName) {
   const TemporaryFolder folder;
   WritePages(folder / "a.tga", {ColourRamp(30, 20)});

@@ -172,6 +172,13 @@ TEST(ReadView, ReadsWhatNotepadSavesAsUnicode) {
             FormatView(ParseView(kThesisFile, "s5.view")));
 }
 
+TEST(ReadView, ARichTextDocumentIsNamed) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("s1.view", "{\\rtf1\\ansi\n x 1\\par\n}");
+  EXPECT_THAT(ThrownMessage([&] { ReadView(file); }),
+              testing::HasSubstr("rich-text document (RTF); save it as plain text"));
+}
+
 TEST(ReadView, NamesAMissingFile) {
   EXPECT_EQ(ThrownMessage([] { ReadView("no/such.view"); }), "no/such.view: cannot open this file");
 }
