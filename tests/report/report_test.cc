@@ -11,7 +11,6 @@
 #include "scene/formats/image_io.h"
 #include "scene/formats/registration_io.h"
 #include "scene/text.h"
-#include "tests/support/spoilt_options.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/viewer/sample_models.h"
 #include "viewer/overlay.h"
@@ -394,14 +393,6 @@ TEST_F(ReportOf, DamagedCoverageIsNamed) {
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("coverage.json: is not JSON"));
   }
-}
-
-TEST(ReportOptions, CheckNamesEachField) {
-  [[maybe_unused]] const auto& [title, picture, find, megabytes] = ReportOptions();
-  ExpectCheckNamesEach<ReportOptions>({
-      {"picture_width_px", [](auto& o) { o.picture_width_px = 0; }},
-      {"max_megabytes", [](auto& o) { o.max_megabytes = 0; }},
-  });
 }
 
 }  // namespace

@@ -390,20 +390,5 @@ TEST(FindOddities, TwoOrdersOfTheAxesThatSuitTheTagsAlikeAreBothNamed) {
   }
 }
 
-TEST(FindOddities, APhotographThatIsThereTwice) {
-  Scene scene = Hall();
-  scene.photographs.push_back(scene.photographs[0]);
-  scene.photographs.back().name = "twin";
-  EXPECT_THAT(Told(scene, true), ElementsAre(HasSubstr("this is the very same picture as")));
-}
-
-TEST(FindOddities, ATagThatWasCopiedFromAnother) {
-  Scene scene = Hall();
-  scene.photographs[4].tag = scene.photographs[1].tag;
-  EXPECT_THAT(Told(scene, true),
-              testing::Contains(AllOf(HasSubstr("has the position and look-at point of"),
-                                      HasSubstr("one of the two was copied"))));
-}
-
 }  // namespace
 }  // namespace groundglass

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace groundglass {
 namespace {
@@ -47,7 +49,9 @@ Best BestOfHouse(double higher) {
       {});
   const Solution best = SolveFrom({}, edge_model, evidence, prior, {}, {});
   Best of_all;
-  for (const GroupProfile& profile : FindGroupProfiles(best, edge_model, evidence, prior, {}, {})) {
+  const auto profiles = FindGroupProfiles(best, edge_model, evidence, prior, {}, {});
+  EXPECT_FALSE(profiles.empty()) << "no set is asked for";
+  for (const GroupProfile& profile : profiles) {
     if (!edge_model.groups.sets[profile.set].across_in_world.isZero()) continue;
     const Best found = BestOf(profile);
     if (found.gain_nats > of_all.gain_nats) of_all = found;
