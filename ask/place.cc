@@ -3,6 +3,7 @@
 #include "ask/place.h"
 
 #include "register/register.h"
+#include "scene/building_bounds.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/frames.h"
@@ -67,7 +68,7 @@ void FindFaces(const PolygonModel& model, double tolerance, Place& place) {
 }
 
 double OnFaceTolerance(const PolygonModel& model, const PickOptions& options) {
-  return options.on_face_share * ComputeBounds(model).Diagonal();
+  return options.on_face_share * ComputeBuildingBounds(model).Diagonal();
 }
 
 // Two directions in a plane, at right angles and of unit length.

@@ -10,6 +10,7 @@
 #include "scene/feature_edges.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/metadata_lens.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/view_template.h"
 #include "scene/visibility.h"
@@ -78,10 +79,18 @@ int WriteTemplates(const Scene& scene, const CheckArguments& arguments) {
   for (const fs::path& image : scene.untagged_images) {
     const fs::path file = scene.folder / "views" / (image.stem().string() + ".view");
     if (fs::exists(file)) continue;
+    const ImageSize size = ReadImageSize(image);
+    MetadataLens lens = FindMetadataLens(ReadPhotographMetadata(image));
+    if (arguments.focal_length_mm) {
+      const double aspect = static_cast<double>(size.width) / size.height;
+      lens = MetadataLens();
+      lens.view_angle_deg = ViewAngleDegFromFocalLength(*arguments.focal_length_mm, aspect);
+    }
     const std::string text = FormatViewTemplate(image.filename().string(),
-                                                ReadImageSize(image),
+                                                size,
                                                 scene.model.unit,
-                                                arguments.focal_length_mm);
+                                                lens.view_angle_deg,
+                                                lens.view_angle_deg ? lens.how : "");
     if (!arguments.common.dry_run) WriteFileAtomically(file, text);
     written.push_back(file.string());
   }

@@ -5,6 +5,7 @@
 #include "cli/printed_zero.h"
 #include "scene/advice/standpoint.h"
 #include "scene/assumed_unit.h"
+#include "scene/building_bounds.h"
 #include "scene/formats/text_encoding.h"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ std::vector<Standpoint> FindStandpoints(const Scene& scene) {
   std::vector<Standpoint> standpoints;
   if (scene.model.faces.empty()) return standpoints;
   const Visibility visibility(scene.model);
-  const Box bounds = ComputeBounds(scene.model);
+  const Box bounds = ComputeBuildingBounds(scene.model);
   for (const Photograph& photograph : scene.photographs) {
     standpoints.push_back(
         FindStandpoint(bounds, visibility, scene.model, photograph.tag, photograph.size));

@@ -12,6 +12,11 @@
 #include <thread>
 
 namespace groundglass {
+namespace {
+
+constexpr int kMostLogLines = 20;
+
+}  // namespace
 
 void AddCommonOptions(CLI::App* command, CommonOptions& options) {
   command->add_flag("--json", options.json, "machine-readable result on stdout");
@@ -55,6 +60,11 @@ Progress MakeProgress(const CommonOptions& options, const std::string& title) {
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!on_terminal) {
+      // A log holds all of a few steps, and of many every twentieth part.
+      if (total > kMostLogLines && done < total &&
+          done * kMostLogLines / total == (done - 1) * kMostLogLines / total) {
+        return;
+      }
       std::fprintf(stderr, "%s %d/%d %s\n", title.c_str(), done, total, what.c_str());
       return;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "gui/app.h"
+#include "scene/building_bounds.h"
 
 #include <imgui/imgui.h>
 
@@ -238,7 +239,7 @@ bool App::DoInLook(Action action, const KeyPress& press) {
       return true;
     case Action::kHome:
       keep_eye();
-      MoveEye(FrameBox(eye_, ComputeBounds(session_.model()), aspect));
+      MoveEye(FrameBox(eye_, ComputeBuildingBounds(session_.model()), aspect));
       return true;
     case Action::kBack:
       if (!eyes_before_.empty()) {

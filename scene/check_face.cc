@@ -37,6 +37,9 @@ std::string FindFaultOfPoints(const PolygonModel& model, const Face& face) {
       return "uses point " + PointNumber(point) + ", which is outside 1 to " +
              std::to_string(num_points);
     }
+    if (!model.points_in_world[static_cast<size_t>(point)].allFinite()) {
+      return "uses point " + PointNumber(point) + ", whose coordinates are not finite numbers";
+    }
   }
   return "";
 }

@@ -2,7 +2,10 @@
 // Part of Groundglass.
 #include "scene/feature_edges.h"
 
+#include "scene/model_sigma.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -10,8 +13,18 @@
 namespace groundglass {
 namespace {
 
-// Borders that differ by less than this share of the model's size are the same border.
+// Borders that differ by less than this share of the model's size are the same border; those too
+// that differ by far less than what is known of its edges, since exporters round the corners of
+// each face by themselves.
 constexpr double kWeldTolerance = 1e-6;
+constexpr double kWeldShareOfSigma = 1.0 / 30;
+
+double WeldTolerance(const PolygonModel& model) {
+  // Who says that a model is coarse has not said that its details are none.
+  const double sigma = std::min(ModelSigma(model), DefaultModelSigma(model));
+  return std::max(
+      {1e-12, kWeldTolerance * ComputeBounds(model).Diagonal(), kWeldShareOfSigma * sigma});
+}
 
 // One number for all points at (almost) the same place, so that faces which do not share point
 // numbers still share borders.
@@ -100,7 +113,7 @@ struct BorderPiece {
 }  // namespace
 
 std::vector<ModelEdge> FindModelEdges(const PolygonModel& model) {
-  const double tolerance = std::max(1e-12, kWeldTolerance * ComputeBounds(model).Diagonal());
+  const double tolerance = WeldTolerance(model);
   const std::vector<int> weld = WeldPoints(model, tolerance);
   const PointsOnSegments points_on_segments(model, weld, tolerance);
 

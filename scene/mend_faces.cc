@@ -47,6 +47,7 @@ class FaceMender {
       if (!check.warning.empty()) bent_.emplace_back(face, check);
       mended_.usable.push_back(face);
     }
+    PlaceUnknownPoints();
     TellBent();
     TellRepeated();
     TellTurned();
@@ -77,8 +78,19 @@ class FaceMender {
     const std::vector<int>& points = model_.faces[face].points;
     const int num_points = static_cast<int>(model_.points_in_world.size());
     return !points.empty() && std::all_of(points.begin(), points.end(), [&](int point) {
-      return point >= 0 && point < num_points;
+      return point >= 0 && point < num_points && Point(point).allFinite();
     });
+  }
+
+  // No face uses them any more; what goes over all points need not know of them.
+  void PlaceUnknownPoints() {
+    const auto is_known = [](const Eigen::Vector3d& point) { return point.allFinite(); };
+    std::vector<Eigen::Vector3d>& points = model_.points_in_world;
+    const auto known = std::find_if(points.begin(), points.end(), is_known);
+    const Eigen::Vector3d place = known == points.end() ? Eigen::Vector3d::Zero() : *known;
+    for (Eigen::Vector3d& point : points) {
+      if (!is_known(point)) point = place;
+    }
   }
 
   // Puts these corners (places in the outline) in place of the face's own.

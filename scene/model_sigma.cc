@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/model_sigma.h"
 
+#include "scene/building_bounds.h"
 #include "scene/error.h"
 #include "scene/text.h"
 
@@ -24,7 +25,7 @@ constexpr double kSigmaOfKnifeMetres = 0.0003;
 constexpr double kShareOfSmallest = 0.002;
 
 double SizeInMetres(const PolygonModel& model) {
-  return ComputeBounds(model).Diagonal() * MetresPerUnit(model.unit);
+  return ComputeBuildingBounds(model).Diagonal() * MetresPerUnit(model.unit);
 }
 
 // Small things are made more exactly, and not only in proportion: a hall of 40 m is known to 30 mm,

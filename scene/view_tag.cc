@@ -219,7 +219,9 @@ std::optional<TagFault> FindTagFault(const ViewTag& tag) {
     }
   }
   if (!(tag.view_angle_deg > 0 && tag.view_angle_deg < 180)) {
-    return TagFault{"v", "view angle must lie between 0 and 180 degrees"};
+    return TagFault{"v",
+                    "view angle must lie between 0 and 180 degrees; of a lens of f mm before 35 mm "
+                    "film it is 2 atan(18 / f)"};
   }
   if (!(tag.aspect > 0)) return TagFault{"a", "aspect (width / height) must be above 0"};
   if (tag.aspect > kLargestAspect || tag.aspect < 1 / kLargestAspect) {

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #include "scene/visibility.h"
 
+#include "scene/building_bounds.h"
+
 #include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -54,6 +56,7 @@ struct Visibility::Impl {
   RTCScene scene = nullptr;
   std::vector<int> face_of_triangle;
   Box bounds;
+  double building_size = 0;
 
   bool is_built = false;
 
@@ -67,6 +70,7 @@ struct Visibility::Impl {
 
 Visibility::Visibility(const PolygonModel& model) : impl_(std::make_unique<Impl>()) {
   impl_->bounds = ComputeBounds(model);
+  impl_->building_size = ComputeBuildingBounds(model).Diagonal();
   std::vector<std::array<int, 3>> triangles;
   for (int face = 0; face < static_cast<int>(model.faces.size()); ++face) {
     for (const std::array<int, 3>& triangle : TriangulateFace(model, face)) {
@@ -202,6 +206,6 @@ Image16 Visibility::FaceLabels(const Camera& camera) const {
   return labels;
 }
 
-double Visibility::DefaultTolerance() const { return 1e-4 * impl_->bounds.Diagonal(); }
+double Visibility::DefaultTolerance() const { return 1e-4 * impl_->building_size; }
 
 }  // namespace groundglass

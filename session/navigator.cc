@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "session/navigator.h"
 
+#include "scene/building_bounds.h"
 #include "scene/check_option.h"
 #include "scene/view_tag.h"
 
@@ -153,7 +154,7 @@ Eye FirstEye(const PolygonModel& model, double aspect, const NavigatorOptions& o
   Eye eye;
   eye.yaw_deg = 55;
   eye.pitch_deg = -22;
-  return FrameBox(eye, ComputeBounds(model), aspect, options);
+  return FrameBox(eye, ComputeBuildingBounds(model), aspect, options);
 }
 
 Eye EyeOf(const Camera& camera) {

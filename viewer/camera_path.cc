@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "viewer/camera_path.h"
 
+#include "scene/building_bounds.h"
 #include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/frames.h"
@@ -277,7 +278,9 @@ std::vector<Camera> MakeOrbit(const PolygonModel& model,
                               const OrbitOptions& options) {
   options.Check();
   if (num_frames < 1) throw Error("camera path: it needs at least one frame");
-  const Eigen::Vector3d middle = ComputeBounds(model).Center();
+  const Box bounds = ComputeBuildingBounds(model);
+  const Eigen::AlignedBox3d built(bounds.min, bounds.max);
+  const Eigen::Vector3d middle = bounds.Center();
   Camera camera;
   camera.width_px = options.width_px;
   camera.height_px = options.height_px;
@@ -304,6 +307,7 @@ std::vector<Camera> MakeOrbit(const PolygonModel& model,
     cam_from_world << right.transpose(), down.transpose(), forward.transpose();
     rotations.push_back(cam_from_world);
     for (const Eigen::Vector3d& point : model.points_in_world) {
+      if (!built.contains(point)) continue;
       const Eigen::Vector3d from_middle = cam_from_world * (point - middle);
       distance = std::max({distance,
                            std::abs(from_middle.x()) / tangent_x - from_middle.z(),

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "register/edges/edge_samples.h"
 
+#include "scene/building_bounds.h"
 #include "scene/model_sigma.h"
 
 #include <algorithm>
@@ -16,11 +17,28 @@ constexpr double kSamePlaneSigmas = 0.25;
 // Parallel ones that lie less apart are one wall with its reveals and cornices: 1 m of a building.
 constexpr double kAttachedPlaneSigmas = 33;
 
+// A ground that runs far beyond the building ends where its author stopped drawing: no
+// photograph shows an edge there.
+std::vector<ModelEdge> FindBuiltEdges(const PolygonModel& model) {
+  std::vector<ModelEdge> edges = FindModelEdges(model);
+  const Box built = ComputeBuildingBounds(model);
+  const double margin = built.Diagonal();
+  const auto is_far = [&](const Eigen::Vector3d& point) {
+    return ((point - built.max).array() > margin).any() ||
+           ((built.min - point).array() > margin).any();
+  };
+  std::erase_if(edges, [&](const ModelEdge& edge) {
+    return edge.kind == ModelEdge::Kind::kBoundary && is_far(edge.start_in_world) &&
+           is_far(edge.end_in_world);
+  });
+  return edges;
+}
+
 }  // namespace
 
 EdgeModel::EdgeModel(const PolygonModel& model_)
     : model(model_),
-      edges(FindModelEdges(model_)),
+      edges(FindBuiltEdges(model_)),
       tolerances(FindEdgeTolerances(model_, edges)),
       visibility(model_),
       sigma(ModelSigma(model_)) {

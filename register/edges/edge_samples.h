@@ -20,6 +20,7 @@ struct EdgeModel {
   explicit EdgeModel(const PolygonModel& model_);
 
   const PolygonModel& model;
+  // FindModelEdges without the borders of a ground that runs far beyond what is built.
   std::vector<ModelEdge> edges;
   // For each edge (FindEdgeTolerances).
   std::vector<EdgeTolerance> tolerances;

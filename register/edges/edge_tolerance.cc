@@ -2,12 +2,12 @@
 // Part of Groundglass.
 #include "register/edges/edge_tolerance.h"
 
+#include "scene/building_bounds.h"
 #include "scene/frames.h"
 #include "scene/model_sigma.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace groundglass {
 namespace {
@@ -37,8 +37,7 @@ std::vector<EdgeTolerance> FindEdgeTolerances(const PolygonModel& model,
                                               const std::vector<ModelEdge>& edges) {
   // However well its edges were surveyed, soil does not follow the model.
   const double sigma = std::max(ModelSigma(model), DefaultModelSigma(model));
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& point : model.points_in_world) lowest = std::min(lowest, point.z());
+  const double lowest = ComputeBuildingBounds(model).min.z();
   const double ground_tolerance = kGroundToleranceSigmas * sigma;
 
   std::vector<EdgeTolerance> tolerances;

@@ -5,6 +5,7 @@
 #include "scene/advice/advice_judge.h"
 #include "scene/advice/advice_parts.h"
 #include "scene/advice/picture_fit.h"
+#include "scene/building_bounds.h"
 
 #include <fmt/format.h>
 
@@ -81,7 +82,7 @@ std::vector<Advice> FindModelOddities(const Scene& scene, const ModelOptions& op
     return found;
   }
   const Visibility visibility(scene.model);
-  const Box bounds = ComputeBounds(scene.model);
+  const Box bounds = ComputeBuildingBounds(scene.model);
   const AdviceContext context{
       scene, options, bounds, visibility, FindStandpoints(scene, bounds, visibility), found};
   // Such cameras need not be held by people, who tell the unit.
@@ -99,7 +100,7 @@ std::vector<Advice> FindOddities(const Scene& scene,
     return found;
   }
   const Visibility visibility(scene.model);
-  const Box bounds = ComputeBounds(scene.model);
+  const Box bounds = ComputeBuildingBounds(scene.model);
   const AdviceContext context{
       scene, options, bounds, visibility, FindStandpoints(scene, bounds, visibility), found};
   std::optional<PictureJudge> pictures;

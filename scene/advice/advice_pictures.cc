@@ -5,6 +5,7 @@
 #include "scene/advice/edge_fit.h"
 #include "scene/advice/picture_fit.h"
 #include "scene/error.h"
+#include "scene/formats/view_template.h"
 #include "scene/frames.h"
 
 #include <tbb/parallel_for.h>
@@ -22,7 +23,7 @@ struct Alternative {
   const char* message;
   const char* remedy;
 };
-constexpr std::array<Alternative, 4> kAlternatives = {{
+constexpr std::array<Alternative, 5> kAlternatives = {{
     {&PictureFit::upside_down,
      "the picture is turned by 180 degrees",
      "turn the picture (with an image editor, or its EXIF orientation)"},
@@ -35,6 +36,11 @@ constexpr std::array<Alternative, 4> kAlternatives = {{
     {&PictureFit::diagonal_angle,
      "v is the view angle from corner to corner, as lens makers give it",
      "v is the horizontal one: write 2 atan(a / sqrt(1 + a^2) tan(v / 2)) in its place"},
+    {&PictureFit::focal_length,
+     "v is the lens's focal length in mm, before 35 mm film",
+     "v is the horizontal view angle in degrees: write 2 atan(18 / v) in its place for a frame "
+     "that "
+     "lies, 2 atan(12 / v) for one that stands"},
 }};
 
 constexpr double kMeanLead = 1;
@@ -103,6 +109,9 @@ PictureFit FitPicture(const AdviceContext& context,
   result.vertical_angle = fit_of(upright, WithTangentTimes(tag, tag.aspect));
   result.diagonal_angle =
       fit_of(upright, WithTangentTimes(tag, tag.aspect / std::hypot(1.0, tag.aspect)));
+  ViewTag by_lens = tag;
+  by_lens.view_angle_deg = ViewAngleDegFromFocalLength(tag.view_angle_deg, tag.aspect);
+  result.focal_length = fit_of(upright, by_lens);
   return result;
 }
 

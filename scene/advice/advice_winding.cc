@@ -7,6 +7,7 @@
 #include "scene/advice/advice_parts.h"
 #include "scene/advice/advice_suitability.h"
 #include "scene/advice/turned_faces.h"
+#include "scene/building_bounds.h"
 #include "scene/face_outline.h"
 
 #include <algorithm>
@@ -166,7 +167,7 @@ std::vector<TurnedFace> FindTurnedFaces(const Scene& scene) {
   const PolygonModel& model = scene.model;
   if (model.faces.empty()) return {};
   const Visibility visibility(model);
-  const Box bounds = ComputeBounds(model);
+  const Box bounds = ComputeBuildingBounds(model);
   const std::vector<FaceSight> sights = FindSights(scene, visibility);
   const std::vector<EdgeRun> runs = FindRuns(model, sights, visibility.DefaultTolerance() / 10);
   std::vector<TurnedFace> turned;

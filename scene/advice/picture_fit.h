@@ -24,6 +24,7 @@ struct PictureFit {
   AlternativeFit mirrored;
   AlternativeFit vertical_angle;  // v taken as the angle up and down the frame
   AlternativeFit diagonal_angle;  // ... as the angle from corner to corner
+  AlternativeFit focal_length;    // ... as the lens's focal length in mm, before 35 mm film
 };
 
 // Scores of chance reach 4.5; those of photographs with their right tags lie between 3.2 and 7

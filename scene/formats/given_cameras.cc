@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/formats/given_cameras.h"
 
+#include "scene/building_bounds.h"
 #include "scene/error.h"
 #include "scene/formats/image_paths.h"
 #include "scene/text.h"
@@ -134,7 +135,7 @@ FittedCamera FitCamera(const Camera& camera,
 ViewTag TagForModel(const Camera& camera, const PolygonModel& model) {
   double distance = 0;
   if (!model.points_in_world.empty()) {
-    distance = (ComputeBounds(model).Center() - camera.PositionInWorld()).norm();
+    distance = (ComputeBuildingBounds(model).Center() - camera.PositionInWorld()).norm();
   }
   return TagFromCamera(camera, distance > 0 ? distance : 1);
 }

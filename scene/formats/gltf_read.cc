@@ -163,8 +163,8 @@ class GltfReader {
       const Eigen::Vector4d point(
           coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2], 1);
       const Eigen::Vector3d placed = (transform * point).head<3>() + origin_;
-      if (!placed.allFinite()) Fail("a point's coordinates are not finite numbers");
-      model.points_in_world.push_back(units_per_metre * WorldFromGltf(placed));
+      model.points_in_world.push_back(
+          (units_per_metre * WorldFromGltf(placed)).unaryExpr(&OrNoPlace));
     }
     return num_vertices;
   }

@@ -3,9 +3,15 @@
 #include "scene/formats/mesh_io.h"
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 
 namespace groundglass {
+
+double OrNoPlace(double coordinate) {
+  return std::isfinite(coordinate) ? coordinate : std::numeric_limits<double>::infinity();
+}
 
 void JoinIdenticalPoints(PolygonModel& model) {
   std::map<std::array<double, 3>, int> joined;

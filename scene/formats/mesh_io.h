@@ -45,6 +45,10 @@ MeshReading ReadGltf(const std::filesystem::path& file,
                      std::optional<LengthUnit> unit,
                      MeshPages pages);
 
+// A coordinate that a mesh has as nan or inf, which programs write for a point that they could not
+// compute: infinite, and MendFaces leaves out the faces that have it. Throws nothing.
+double OrNoPlace(double coordinate);
+
 // Points at exactly the same place become one.
 void JoinIdenticalPoints(PolygonModel& model);
 

@@ -74,10 +74,10 @@ class ObjReader {
   void ReadLine(const std::string& keyword) {
     if (keyword == "v") {
       const std::vector<std::string_view> words = lines_.arguments();
-      const double x = ReadCoordinate(words, 0, 3);
-      const double y = ReadCoordinate(words, 1, 3);
-      const double z = ReadCoordinate(words, 2, 3);
-      reading_.model.points_in_world.emplace_back(x, y, z);
+      const double x = ReadNumber(words, 0, 3);
+      const double y = ReadNumber(words, 1, 3);
+      const double z = ReadNumber(words, 2, 3);
+      reading_.model.points_in_world.emplace_back(OrNoPlace(x), OrNoPlace(y), OrNoPlace(z));
     } else if (keyword == "vt") {
       const std::vector<std::string_view> words = lines_.arguments();
       const double u = ReadCoordinate(words, 0, 1);
@@ -98,12 +98,18 @@ class ObjReader {
   }
 
   double ReadCoordinate(const std::vector<std::string_view>& words, size_t index, int least) const {
+    const double value = ReadNumber(words, index, least);
+    if (!std::isfinite(value)) Fail(WhyNoNumber(words[index]));
+    return value;
+  }
+
+  double ReadNumber(const std::vector<std::string_view>& words, size_t index, int least) const {
     if (index >= words.size()) {
       Fail("expected " + std::to_string(least) + (least == 1 ? " number" : " numbers") +
            " at least");
     }
     const std::optional<double> value = ParseNumber(words[index]);
-    if (!value || !std::isfinite(*value)) Fail(WhyNoNumber(words[index]));
+    if (!value) Fail(WhyNoNumber(words[index]));
     return *value;
   }
 

@@ -118,7 +118,10 @@ void OpenImage::Open(const OIIO::ImageSpec& config) {
       spec_.height > kLongestSide || NumPixels(spec_) * spec_.nchannels > kMostPixels) {
     throw Error(file_,
                 CannotRead("its header gives a size of " + SizeOf(spec_) + " x " +
-                           std::to_string(spec_.nchannels)));
+                           std::to_string(spec_.nchannels) + "; expected at most " +
+                           std::to_string(kLongestSide) + " pixels on a side and " +
+                           FormatNumber(kMostPixels / 1e9) +
+                           "e9 numbers in all: reduce it, or save it again if it is damaged"));
   }
 }
 

@@ -68,6 +68,7 @@ Manifest ManifestFromJson(const nlohmann::json& json) {
 
 struct ManifestText {
   bool is_ours = false;
+  bool is_damaged = false;           // no JSON, so that it does not say whose it is
   std::optional<Manifest> manifest;  // nothing if it cannot be understood
 };
 
@@ -75,15 +76,23 @@ ManifestText ParseManifest(const std::string& text) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
   // One that is cut short or garbled further on still begins as we write it.
   if (json.is_discarded()) {
-    return {text.find("\"program\": \"" + std::string(kProgram)) < 100, std::nullopt};
+    return {text.find("\"program\": \"" + std::string(kProgram)) < 100, true, std::nullopt};
   }
   if (!json.is_object() || !json.contains("program") || json["program"] != kProgram) return {};
   try {
-    return {true, ManifestFromJson(json)};
+    return {true, false, ManifestFromJson(json)};
   } catch (const nlohmann::json::exception&) {
     // Written by hand, or by an earlier version: nothing of it can be kept.
-    return {true, std::nullopt};
+    return {true, false, std::nullopt};
   }
+}
+
+// A power cut may leave a manifest of zeros; what registration wrote beside it tells whose it was.
+bool HasRegistration(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "registration.json";
+  if (!std::filesystem::exists(file)) return false;
+  const auto json = nlohmann::json::parse(ReadTextFile(file), nullptr, false);
+  return json.is_object() && json.contains("photographs");
 }
 
 }  // namespace
@@ -155,7 +164,8 @@ FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
 std::optional<Manifest> ReadManifest(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kFileName;
   if (!std::filesystem::exists(file)) return std::nullopt;
-  const ManifestText text = ParseManifest(ReadTextFile(file));
+  ManifestText text = ParseManifest(ReadTextFile(file));
+  text.is_ours = text.is_ours || (text.is_damaged && HasRegistration(folder));
   return text.is_ours ? std::optional(text.manifest.value_or(Manifest())) : std::nullopt;
 }
 

@@ -186,12 +186,7 @@ class PlyReader {
           SkipProperty(property, "a vertex's " + property.name);
           continue;
         }
-        const double value = numbers_.Next(property.type, "a vertex's " + property.name);
-        if (!std::isfinite(value)) {
-          numbers_.Fail("vertex " + std::to_string(row) + "'s " + property.name +
-                        " is not a finite number");
-        }
-        point[axis_of[i]] = value;
+        point[axis_of[i]] = OrNoPlace(numbers_.Next(property.type, "a vertex's " + property.name));
       }
     }
   }

@@ -145,10 +145,26 @@ void SceneReader::ReadTheModel() {
   }
 }
 
+namespace {
+
+bool HasControlCharacter(const std::string& text) {
+  return std::any_of(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+}
+
+}  // namespace
+
 FilesByStem SceneReader::ListImages(const char* subfolder) {
   const fs::path folder = folder_ / subfolder;
   std::vector<std::string> paths = ListFilesBelow(folder);
   std::erase_if(paths, [&](const std::string& path) {
+    if (HasControlCharacter(path)) {
+      Warn(folder,
+           Quote(path) +
+               " has a line break, a tab or the like in its name, which no list of photographs can "
+               "hold; it is left out: rename it");
+      return true;
+    }
     const ImageKind kind = FindImageKind(folder / path);
     if (kind.IsImage() || IsImageExtension(fs::path(path).extension().string())) return false;
     Warn(folder / path,

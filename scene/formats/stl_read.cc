@@ -87,13 +87,13 @@ void ReadText(std::string_view text, const std::filesystem::path& file, PolygonM
       for (double& coordinate : corner) {
         const std::string_view number = words.Next();
         const auto value = ParseNumber(number);
-        if (!value || !std::isfinite(*value)) {
+        if (!value) {
           throw Error(file,
                       words.line(),
                       number.empty() ? "the file ends amid a vertex"
                                      : Quote(number) + " is not a finite number");
         }
-        coordinate = *value;
+        coordinate = OrNoPlace(*value);
       }
     } else if (keyword == "endloop" || keyword == "endfacet") {
       if (is_in_facet && !corners.empty()) AddFace(corners, name, model);
@@ -145,12 +145,9 @@ void ReadBinary(std::string_view bytes,
     std::vector<Eigen::Vector3d> corners;
     for (size_t corner = 0; corner < 3; ++corner) {
       const size_t place = at + 12 * corner;
-      corners.emplace_back(
-          ReadFloat(bytes, place), ReadFloat(bytes, place + 4), ReadFloat(bytes, place + 8));
-      if (!corners.back().allFinite()) {
-        throw Error(file,
-                    "a corner of triangle " + std::to_string(i + 1) + " is not of finite numbers");
-      }
+      corners.emplace_back(OrNoPlace(ReadFloat(bytes, place)),
+                           OrNoPlace(ReadFloat(bytes, place + 4)),
+                           OrNoPlace(ReadFloat(bytes, place + 8)));
     }
     AddFace(corners, "", model);
   }

@@ -19,15 +19,13 @@ double ViewAngleDegFromFocalLength(double focal_length_mm, double aspect) {
 std::string FormatViewTemplate(const std::string& image_name,
                                const ImageSize& size,
                                LengthUnit unit,
-                               const std::optional<double>& focal_length_mm) {
+                               const std::optional<double>& view_angle_deg,
+                               const std::string& how_known) {
   const double aspect = static_cast<double>(size.width) / size.height;
   const std::string stem = std::filesystem::path(image_name).stem().string();
   const bool is_upright = size.height > size.width;
-  std::string angle = "?";
-  if (focal_length_mm) {
-    angle =
-        FormatNumber(std::round(100 * ViewAngleDegFromFocalLength(*focal_length_mm, aspect)) / 100);
-  }
+  const std::string angle =
+      view_angle_deg ? FormatNumber(std::round(100 * *view_angle_deg) / 100) : "?";
   return "% File: " + stem +
          ".view\n"
          "% What was written down when " +
@@ -56,8 +54,9 @@ std::string FormatViewTemplate(const std::string& image_name,
          "v " +
          angle + "   % angle from the left edge to the right one, degrees: 2 atan(" +
          (is_upright ? "12" : "18") + " / f) of a 35 mm frame that " +
-         (is_upright ? "stands" : "lies") +
-         ", f in mm\n"
+         (is_upright ? "stands" : "lies") + ", f in mm" +
+         (how_known.empty() ? "" : "; here from " + how_known) +
+         "\n"
          "\n"
          "% If you know how far off the above may be (one standard deviation):\n"
          "% sigma_position 0.5\n"

@@ -68,6 +68,24 @@ TEST(FindModelEdges, FacesThatDoNotSharePointNumbersStillShareBorders) {
   EXPECT_EQ(shared, 1);
 }
 
+// Exporters write each face's corners by themselves, rounded.
+TEST(FindModelEdges, CornersATenthOfAMillimetreApartAreOne) {
+  PolygonModel model;
+  model.unit = LengthUnit::kMetre;
+  model.points_in_world = {{0, 0, 0},
+                           {8, 0, 0},
+                           {8, 0, 9},
+                           {0, 0, 9},
+                           {8.0001, -0.0001, 0},
+                           {16, 0, 0},
+                           {16, 0, 9},
+                           {8.0001, 0.0001, 9.0001}};
+  model.faces = {{{0, 1, 2, 3}, ""}, {{4, 5, 6, 7}, ""}};
+  EXPECT_EQ(FindModelEdges(model).size(), 7u);
+  for (Eigen::Vector3d& point : model.points_in_world) point.x() += point.x() > 8 ? 0.05 : 0;
+  EXPECT_EQ(FindModelEdges(model).size(), 8u) << "a gap that somebody drew";
+}
+
 TEST(FindModelEdges, BordersAreCutAtTJunctions) {
   PolygonModel model;
   // A tall wall beside two low ones.

@@ -394,5 +394,16 @@ TEST(FindOddities, ViewAnglesOfTheOtherSide) {
   EXPECT_EQ(found[0].severity, Advice::Severity::kScene);
 }
 
+TEST(Oddities, ALensWrittenInPlaceOfTheViewAngleIsTold) {
+  Scene scene = ReadBrick();
+  for (Photograph& photograph : scene.photographs) {
+    double& angle_deg = photograph.tag.view_angle_deg;
+    angle_deg = 18 / std::tan(angle_deg * M_PI / 360);
+  }
+  const std::vector<Advice> found = FindOddities(scene);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(FormatAdvice(found[0]), HasSubstr("v is the lens's focal length in mm"));
+}
+
 }  // namespace
 }  // namespace groundglass

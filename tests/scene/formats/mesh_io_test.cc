@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 namespace groundglass {
@@ -89,7 +90,8 @@ TEST(Ply, FaultsNameTheirLine) {
               HasSubstr("m.ply: face 1 uses vertex 3 (from 0), but there are 3"));
   EXPECT_THAT(message(head + "0 0 0\n1 0 zero\n0 1 0\n3 0 1 2\n"),
               HasSubstr("m.ply:11: a vertex's z: 'zero' is not a number"));
-  EXPECT_THAT(message(head + "0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n"), HasSubstr("m.ply:12: "));
+  EXPECT_THAT(message(head + "0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n"),
+              HasSubstr("m.ply: 1 face that cannot be used is left out: face 1 uses point 3"));
   EXPECT_THAT(message(head + "0 0 0\n1 0 0\n0 1 0\n9 0 1 2\n"), HasSubstr("m.ply:13: "));
   EXPECT_THAT(message(head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 0.5\n"),
               HasSubstr("m.ply: face 1 uses vertex 0.5 (from 0), but there are 3"));
@@ -151,6 +153,34 @@ TEST(Stl, TextMayHoldSeveralSolidsWithNames) {
                 ReadModel(folder.Write("m.stl", "solid\nfacet normal 0 0 1\nvertex 1 2 3\n"));
               }),
               HasSubstr("m.stl:4: the file ends amid a facet"));
+}
+
+// Programs write nan for a point that they could not compute.
+TEST(Mesh, AFaceWithACornerThatIsNoNumberIsLeftOut) {
+  const TemporaryFolder folder;
+  std::string stl = BinaryStl("", 3, 3);
+  const float nan = std::nanf("");
+  std::memcpy(stl.data() + 84 + 50 + 12, &nan, sizeof(nan));  // the second triangle's first corner
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"m.obj",
+       "v 0 0 0\nv 4 0 0\nv 4 3 0\nv nan 3 0\nv 9 inf -inf\nf 1 2 3\nf 1 3 4\nf 2 3 1 5\nf 3 2 "
+       "1 2 3\n"},
+      {"m.ply",
+       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+       "float "
+       "z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n4 0 0\n4 3 "
+       "0\nnan nan nan\n3 0 1 2\n3 0 2 3\n"},
+      {"m.stl", stl}};
+  for (const auto& [name, text] : files) {
+    const ModelReading reading = ReadModel(folder.Write(name, text));
+    EXPECT_FALSE(reading.left_out.empty()) << name;
+    EXPECT_EQ(reading.left_out[0], 2) << name;
+    EXPECT_THAT(reading.warnings, Contains(HasSubstr("whose coordinates are not finite numbers")))
+        << name;
+    for (const Eigen::Vector3d& point : reading.model.points_in_world) {
+      EXPECT_TRUE(point.allFinite()) << name;
+    }
+  }
 }
 
 // Floats of four corners and their texture points, then indices of sparse exceptions.

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/formats/output_folder.h"
 
+#include "scene/error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thrown_message.h"
 
@@ -94,6 +95,18 @@ TEST(Manifest, OneThatIsCutShortIsStillOurs) {
   ASSERT_TRUE(ReadManifest(folder.path()));
   EXPECT_TRUE(ReadManifest(folder.path())->stages.empty());
   PrepareOutputFolder(folder.path());
+}
+
+// As a power cut leaves it.
+TEST(Manifest, OneOfZerosIsOursBesideARegistration) {
+  const TemporaryFolder folder;
+  folder.Write("manifest.json", std::string(200, '\0'));
+  EXPECT_THROW(PrepareOutputFolder(folder.path()), Error);
+  folder.Write("registration.json", "{\"photographs\": []}");
+  EXPECT_TRUE(IsManifestDamaged(folder.path()));
+  PrepareOutputFolder(folder.path());
+  folder.Write("manifest.json", "{\"program\": \"another\"}");
+  EXPECT_THROW(PrepareOutputFolder(folder.path()), Error);
 }
 
 }  // namespace

@@ -80,6 +80,15 @@ TEST(ReadScene, WhatIsNoFileUnderAPhotographsNameIsTold) {
   EXPECT_THAT(warnings(), Contains(HasSubstr("images/s2.jpg is a folder")));
 }
 
+TEST(ReadScene, APhotographWhoseNameHoldsALineBreakIsLeftOut) {
+  const SceneFolder folder;
+  std::filesystem::copy(folder / "images/s2.jpg", folder / "images/s\n3.jpg");
+  const SceneCheck check = CheckScene(folder.path());
+  EXPECT_THAT(check.faults, IsEmpty());
+  EXPECT_THAT(check.scene.warnings, Contains(HasSubstr("'s?3.jpg' has a line break")));
+  EXPECT_EQ(check.scene.photographs.size(), 2u);
+}
+
 TEST(ReadScene, ADamagedPictureIsToldThoughItHasNoTag) {
   const SceneFolder folder;
   const std::string whole = ReadTextFile(folder / "images/s2.jpg");

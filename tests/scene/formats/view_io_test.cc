@@ -134,9 +134,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadView{"sigma_v 0",
                 "views/s5.view:12: key 'sigma_v': a standard deviation must be above 0"},
         BadView{"=x 1 y 2 z 3\ni 4 j 5 k 6 a 1.5\nv 180",
-                "views/s5.view:3: key 'v': view angle must lie between 0 and 180 degrees"},
+                "views/s5.view:3: key 'v': view angle must lie between 0 and 180 degrees; of a "
+                "lens of f mm before 35 mm film it is 2 atan(18 / f)"},
         BadView{"=x 1 y 2 z 3\ni 4 j 5 k 6 a 1.5\nv 0",
-                "views/s5.view:3: key 'v': view angle must lie between 0 and 180 degrees"},
+                "views/s5.view:3: key 'v': view angle must lie between 0 and 180 degrees; of a "
+                "lens of f mm before 35 mm film it is 2 atan(18 / f)"},
         BadView{"=x 1 y 2 z 3\ni 4 j 5 k 6 a -1.5\nv 50",
                 "views/s5.view:2: key 'a': aspect (width / height) must be above 0"},
         BadView{"=x 1 y 2 z 3\ni 1 j 2 k 3 a 1.5\nv 50",

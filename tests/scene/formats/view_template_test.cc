@@ -33,8 +33,10 @@ TEST(ViewTemplate, IsNoTagUntilItIsFilledIn) {
 TEST(ViewTemplate, KnowsTheAngleOfALens) {
   EXPECT_NEAR(ViewAngleDegFromFocalLength(35, 1.5), 54.432, 1e-3);      // 2 atan(18 / 35)
   EXPECT_NEAR(ViewAngleDegFromFocalLength(35, 1 / 1.5), 37.849, 1e-3);  // 2 atan(12 / 35)
-  EXPECT_THAT(FormatViewTemplate("a.jpg", {800, 1200}, LengthUnit::kFoot, 35),
-              HasSubstr("\nv 37.85 "));
+  const std::string text =
+      FormatViewTemplate("a.jpg", {800, 1200}, LengthUnit::kFoot, 37.849, "26 mm for 35 mm film");
+  EXPECT_THAT(text, HasSubstr("\nv 37.85 "));
+  EXPECT_THAT(text, HasSubstr("f in mm; here from 26 mm for 35 mm film\n"));
 }
 
 }  // namespace
