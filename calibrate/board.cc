@@ -41,6 +41,7 @@ void BoardOptions::Check() const {
   CheckFromTo(min_april_tags, 1, kNumAprilTagIds, "board: min_april_tags");
   CheckAtLeast(coarse_share, 0, "board: coarse_share");
   CheckAbove(max_rms_px, 0, "board: max_rms_px");
+  CheckAbove(max_sigma_share, 0, "board: max_sigma_share");
 }
 
 Eigen::Matrix<double, 2, 4> AprilTagCornersOnBoard(const Board& board, int index) {

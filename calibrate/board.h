@@ -62,6 +62,9 @@ struct BoardOptions {
   // Pixels.
   double max_rms_px = 2.0;
 
+  // A view angle of which this share is its standard deviation is not known at all.
+  double max_sigma_share = 0.25;
+
   void Check() const;
 };
 

@@ -92,8 +92,11 @@ void CheckFit(double rms_px,
               const std::vector<std::vector<AprilTagDetection>>& detections) {
   if (rms_px <= max_rms_px) return;
   const std::string text = DescribeSeenBoard(board, detections);
-  throw Error("calibrate board: the corners miss the board by " + fmt::format("{:.1f}", rms_px) +
-              " px; check columns, rows, tag size and gap, and that the board is flat" +
+  const std::string miss = std::isfinite(rms_px) ? "the corners miss the board by " +
+                                                       fmt::format("{:.1f}", rms_px) + " px"
+                                                 : std::string("no camera sees the board so");
+  throw Error("calibrate board: " + miss +
+              "; check columns, rows, tag size and gap, and that the board is flat" +
               (text.empty() ? "" : "; ") + text);
 }
 
@@ -276,6 +279,16 @@ void MeasureAgain(std::span<const BoardPhotograph> photographs,
   std::erase_if(shots, [](const BoardShot& shot) { return shot.april_tags.empty(); });
 }
 
+// The same picture three times, or three from one place, tell where the board is and nothing of the
+// lens.
+void CheckAngle(const Lens& lens, double max_sigma_share) {
+  if (lens.sigma_view_angle_deg <= max_sigma_share * lens.view_angle_deg) return;
+  throw Error("calibrate board: the view angle is " + fmt::format("{:.0f}", lens.view_angle_deg) +
+              " +- " + fmt::format("{:.0f}", lens.sigma_view_angle_deg) +
+              " degrees, which is nothing known; photograph the board from several sides, turned "
+              "by 20 to 45 degrees, not several times from one");
+}
+
 // Says what board the pictures show if the corners miss the one that was given.
 void RemarkOnMisfit(const Board& board,
                     const std::vector<std::vector<AprilTagDetection>>& detections,
@@ -319,6 +332,7 @@ BoardResult CalibrateBoard(std::span<const BoardPhotograph> photographs,
   BoardResult result;
   result.layout = DescribeLayout(board);
   result.lens = MakeLens(solution);
+  CheckAngle(result.lens, options.max_sigma_share);
   result.num_corners = solution.num_corners;
   result.rms_px = solution.rms_px;
   for (const BoardPhotograph& photograph : photographs) {

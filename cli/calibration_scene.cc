@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_paths.h"
+#include "scene/formats/input_folders.h"
 #include "scene/formats/metadata_lens.h"
 #include "scene/text.h"
 
@@ -67,6 +68,7 @@ CalibrationScene ReadCalibrationScene(const CalibrationArguments& arguments,
     }
     if (!model_file) model_file = FindModelFile(scene.scene_folder);
     if (scene.out_folder.empty()) scene.out_folder = scene.scene_folder / "calibration";
+    RefuseAmongInputs(scene.out_folder);
   } else {
     for (const fs::path& file : arguments.inputs) {
       if (fs::is_directory(file)) throw Error(file, "give one scene folder, or photographs");

@@ -10,6 +10,7 @@
 #include "scene/feature_edges.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/input_folders.h"
 #include "scene/formats/metadata_lens.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/view_template.h"
@@ -111,6 +112,7 @@ int WriteTemplates(const Scene& scene, const CheckArguments& arguments) {
 }
 
 int RunCheck(const CheckArguments& arguments) {
+  if (!arguments.output.empty()) RefuseAmongInputs(arguments.output);
   SceneOptions options;
   if (!arguments.model.empty()) options.model_file = arguments.model;
   options.model = arguments.model_arguments.Options();

@@ -7,6 +7,7 @@
 #include "scene/assumed_unit.h"
 #include "scene/building_bounds.h"
 #include "scene/formats/text_encoding.h"
+#include "scene/model_sigma.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -45,6 +46,8 @@ std::string FormatCameraTable(const Scene& scene) {
   const std::vector<Standpoint> standpoints = FindStandpoints(scene);
   if (standpoints.empty()) return "";
   const std::string unit = UnitName(scene.model.unit);
+  // People measure their places less well than a building is.
+  const int decimals = std::max(0, LengthDecimals(scene.model) - 1);
   int width = 10;
   for (const Photograph& photograph : scene.photographs) {
     width = std::max(width, DisplayWidth(photograph.name));
@@ -60,11 +63,14 @@ std::string FormatCameraTable(const Scene& scene) {
                                   "looks at");
   for (size_t i = 0; i < standpoints.size(); ++i) {
     const Standpoint& standpoint = standpoints[i];
-    table += fmt::format("{}  {:9.1f} {:9.1f} {:8.1f}  {:<8} {:9.4g}  {:6.1f}  {}\n",
+    table += fmt::format("{}  {:9.{}f} {:9.{}f} {:8.{}f}  {:<8} {:9.4g}  {:6.1f}  {}\n",
                          PaddedTo(width, scene.photographs[i].name),
-                         ZeroIfRounded(standpoint.position_in_site.x(), 1),
-                         ZeroIfRounded(standpoint.position_in_site.y(), 1),
-                         ZeroIfRounded(standpoint.position_in_site.z(), 1),
+                         ZeroIfRounded(standpoint.position_in_site.x(), decimals),
+                         decimals,
+                         ZeroIfRounded(standpoint.position_in_site.y(), decimals),
+                         decimals,
+                         ZeroIfRounded(standpoint.position_in_site.z(), decimals),
+                         decimals,
                          standpoint.bearing,
                          standpoint.distance,
                          scene.photographs[i].tag.view_angle_deg,

@@ -8,6 +8,7 @@
 #include "scene/error.h"
 #include "scene/formats/colmap_io.h"
 #include "scene/formats/convert.h"
+#include "scene/formats/input_folders.h"
 #include "scene/text.h"
 
 #include <cstdio>
@@ -50,6 +51,7 @@ ConvertResult Convert(const ConvertArguments& arguments) {
 }
 
 int RunConvert(const ConvertArguments& arguments) {
+  RefuseFilledInputs(arguments.output);
   if (arguments.common.dry_run) {
     return TellDryRun(arguments.common,
                       "convert " + arguments.input + " to " + arguments.output,

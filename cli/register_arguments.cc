@@ -12,6 +12,7 @@
 #include "scene/formats/select_photographs.h"
 #include "scene/formats/text_encoding.h"
 #include "scene/frames.h"
+#include "scene/model_sigma.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -189,10 +190,10 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
   if (arguments.lens_file) ReadLens(*arguments.lens_file);
   if (arguments.points_file) {
     std::vector<std::string> names;
-    for (const ControlPoint& point : ReadControlPoints(*arguments.points_file)) {
-      names.push_back(point.photograph);
-    }
+    const std::vector<ControlPoint> points = ReadControlPoints(*arguments.points_file);
+    for (const ControlPoint& point : points) names.push_back(point.photograph);
     RequirePhotographs(scene, names, arguments.points_file->string());
+    CheckControlPoints(*arguments.points_file, points, scene);
   }
   return scene;
 }
@@ -238,31 +239,34 @@ void PrintRegistrations(const std::vector<Registration>& registrations) {
   }
 }
 
-void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit unit) {
+void PrintModelErrors(const std::vector<ModelError>& model_errors, const PolygonModel& model) {
   if (model_errors.empty()) return;
-  const std::string unit_name = UnitName(unit);
+  const int decimals = LengthDecimals(model);
+  const auto in_site = [&](const Eigen::Vector3d& in_world, const char* sign) {
+    const Eigen::Vector3d place = SiteFromWorld(in_world);
+    std::string text;
+    for (const double value : place) {
+      const double shown = ZeroIfRounded(value, decimals);
+      text += (text.empty() ? "" : " ") + (*sign ? fmt::format("{:+.{}f}", shown, decimals)
+                                                 : fmt::format("{:.{}f}", shown, decimals));
+    }
+    return text;
+  };
   std::printf(
       "\nThe photographs see these lines of the model elsewhere (x east, y south, z up):\n");
   for (size_t i = 0; i < model_errors.size();) {
     const ModelError& error = model_errors[i];
-    const Eigen::Vector3d offset_in_site = SiteFromWorld(error.offset_in_world);
-    const Eigen::Vector3d start_in_site = SiteFromWorld(error.start_in_world);
-    const Eigen::Vector3d end_in_site = SiteFromWorld(error.end_in_world);
-    std::printf("%-40s off by %+.2f %+.2f %+.2f %s, +-%.2f\n",
+    std::printf("%-40s off by %s %s, +-%.*f\n",
                 error.name.c_str(),
-                ZeroIfRounded(offset_in_site.x(), 2),
-                ZeroIfRounded(offset_in_site.y(), 2),
-                ZeroIfRounded(offset_in_site.z(), 2),
-                unit_name.c_str(),
+                in_site(error.offset_in_world, "+").c_str(),
+                UnitName(model.unit).c_str(),
+                decimals,
                 error.sigma);
-    std::printf("    %.2f long, from %.2f %.2f %.2f to %.2f %.2f %.2f; in %s\n",
+    std::printf("    %.*f long, from %s to %s; in %s\n",
+                decimals,
                 (error.end_in_world - error.start_in_world).norm(),
-                ZeroIfRounded(start_in_site.x(), 2),
-                ZeroIfRounded(start_in_site.y(), 2),
-                ZeroIfRounded(start_in_site.z(), 2),
-                ZeroIfRounded(end_in_site.x(), 2),
-                ZeroIfRounded(end_in_site.y(), 2),
-                ZeroIfRounded(end_in_site.z(), 2),
+                in_site(error.start_in_world, "").c_str(),
+                in_site(error.end_in_world, "").c_str(),
                 fmt::format("{}", fmt::join(error.photographs, " ")).c_str());
     const size_t first_with_it = ++i;
     while (i < model_errors.size() && model_errors[i].with_the_one_before) ++i;

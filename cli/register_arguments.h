@@ -60,7 +60,7 @@ void PrintRegistrationsJson(const RegisteredScene& registered,
                             const std::vector<std::string>& warnings,
                             const std::vector<std::string>& failures = {});
 // The lines of the model that are off, if any, in `site`.
-void PrintModelErrors(const std::vector<ModelError>& model_errors, LengthUnit unit);
+void PrintModelErrors(const std::vector<ModelError>& model_errors, const PolygonModel& model);
 
 // On stderr, each as a line.
 void PrintWarnings(const std::vector<std::string>& warnings);

@@ -79,7 +79,7 @@ void AddRegisterCommand(CLI::App& app, int& exit_status) {
       } else {
         std::fputs(FormatModelSummary(scene.model, registering.model_arguments).c_str(), stdout);
         PrintRegistrations(registered.registrations);
-        PrintModelErrors(registered.model_errors, scene.model.unit);
+        PrintModelErrors(registered.model_errors, scene.model);
         PrintVerdictCounts(registered.registrations, scene.warnings.size());
       }
       PrintWarnings(registered.warnings);

@@ -10,6 +10,7 @@
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
+#include "scene/formats/input_folders.h"
 #include "scene/formats/model_io.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/textured_model_io.h"
@@ -265,6 +266,7 @@ int RunRender(const RenderArguments& arguments) {
   for (const fs::path& input : {arguments.model, arguments.photograph, arguments.view_file}) {
     RequireOtherFile(input, arguments.out);
   }
+  RefuseFilledInputs(arguments.out);
   if (arguments.montage.IsAsked()) {
     MontageArguments montage = arguments.montage;
     montage.montage.supersampling = arguments.render.supersampling;
@@ -330,7 +332,7 @@ void AddRenderCommand(CLI::App& app, int& exit_status) {
       ->check(FromTo(1, 4))
       ->capture_default_str();
   command->add_option("--seconds", arguments->seconds, "length of the film")
-      ->check(Above(0))
+      ->check(FromTo(1e-3, 3600))
       ->capture_default_str();
   command->add_option("--fps", arguments->film.frames_per_second, "frames a second")
       ->check(FromTo(1, 240))

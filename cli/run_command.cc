@@ -86,7 +86,7 @@ JobObserver MakeRunPrinter(const RunArguments& arguments, const Scene& scene) {
     std::fputs(FormatModelSummary(scene.model, arguments.registering.model_arguments).c_str(),
                stdout);
     PrintRegistrations(registered.registrations);
-    PrintModelErrors(registered.model_errors, scene.model.unit);
+    PrintModelErrors(registered.model_errors, scene.model);
   };
   printer.textured = [](double covered_share) {
     std::printf("texture covers %.1f %% of the model's surface\n", 100 * covered_share);

@@ -7,8 +7,10 @@
 #include "cli/printed_zero.h"
 #include "scene/error.h"
 #include "scene/formats/image_io.h"
+#include "scene/model_sigma.h"
 #include "scene/text.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -140,8 +142,10 @@ void PrintPlace(const Survey& survey, const Answer& answer, size_t index) {
                 DescribeFace(survey.model, place.nearest_face).c_str());
   }
   for (const int face : place.faces) {
-    std::printf("  on %s, %.2f square %s",
+    // As exact as the lengths: 0.01 of a building's, 0.000001 of a maquette's in metres.
+    std::printf("  on %s, %.*f square %s",
                 DescribeFace(survey.model, face).c_str(),
+                std::max(0, 2 * LengthDecimals(survey.model) - 2),
                 ComputeFaceArea(survey.model, face),
                 unit.c_str());
     if (const auto texel = TexelSize(survey, face)) {

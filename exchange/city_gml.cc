@@ -5,11 +5,14 @@
 #include "exchange/xml_reader.h"
 #include "scene/error.h"
 #include "scene/mend_faces.h"
+#include "scene/text.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -20,16 +23,25 @@ struct GmlPolygon {
   std::vector<Ring> rings;  // the outer one first
   std::string name;
   int line = 0;
-  int member = 0;  // which object of the city it is part of
+  int object = 0;  // which object of the city it is part of: a building, or a part of one
   int lod = -1;    // its level of detail; -1 if nothing says
 };
 
 // What the elements around a polygon say of it.
 struct GmlContext {
   std::string name;
-  int member = 0;
+  int object = 0;
   int lod = -1;
+  bool is_turned = false;  // within an <OrientableSurface orientation="-">
+  // Of an <ImplicitGeometry>, a shape that is drawn once and set up here.
+  Eigen::Matrix4d model_from_drawn = Eigen::Matrix4d::Identity();
 };
+
+// What has levels of detail of its own.
+bool IsCityObject(const std::string& name) {
+  return name == "cityObjectMember" || name == "Building" || name.ends_with("Part") ||
+         name.ends_with("Installation");
+}
 
 class CityGmlReader {
  public:
@@ -39,6 +51,11 @@ class CityGmlReader {
     Visit(ReadXml(file_), {});
     return std::move(polygons_);
   }
+
+  // Shapes that are drawn elsewhere, and so not read.
+  int num_elsewhere() const { return num_elsewhere_; }
+  // The system of coordinates that the file names last; empty if it names none.
+  const std::string& coordinate_system() const { return coordinate_system_; }
 
  private:
   void AppendPoints(const XmlElement& element, Ring& ring) const {
@@ -72,17 +89,57 @@ class CityGmlReader {
     GmlPolygon polygon;
     polygon.name = context.name;
     polygon.line = element.line;
-    polygon.member = context.member;
+    polygon.object = context.object;
     polygon.lod = context.lod;
     for (const XmlElement& child : element.children) {
       if (child.name == "exterior") polygon.rings.insert(polygon.rings.begin(), ReadRing(child));
       if (child.name == "interior") polygon.rings.push_back(ReadRing(child));
     }
+    for (Ring& ring : polygon.rings) {
+      for (Eigen::Vector3d& point : ring) {
+        point = (context.model_from_drawn * point.homogeneous()).head<3>();
+      }
+      if (context.is_turned) std::reverse(ring.begin(), ring.end());
+    }
     if (!polygon.rings.empty()) polygons_.push_back(std::move(polygon));
   }
 
+  // A matrix by rows, then a place that is added.
+  Eigen::Matrix4d ReadPlacement(const XmlElement& geometry) const {
+    Eigen::Matrix4d model_from_drawn = Eigen::Matrix4d::Identity();
+    if (const XmlElement* matrix = geometry.Child("transformationMatrix")) {
+      const std::vector<double> numbers = ReadXmlNumbers(file_, *matrix, matrix->text);
+      if (numbers.size() != 16) {
+        throw Error(file_,
+                    matrix->line,
+                    "<transformationMatrix> has " + std::to_string(numbers.size()) +
+                        " numbers; expected 16, by rows");
+      }
+      model_from_drawn =
+          Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+    }
+    const XmlElement* place = geometry.Child("referencePoint");
+    const XmlElement* point = place ? place->Child("Point") : nullptr;
+    if (const XmlElement* pos = point ? point->Child("pos") : nullptr) {
+      Ring points;
+      AppendPoints(*pos, points);
+      model_from_drawn.topRightCorner<3, 1>() += points.front();
+    }
+    return model_from_drawn;
+  }
+
   void Visit(const XmlElement& element, GmlContext context) {
-    if (element.name == "cityObjectMember") context.member = ++num_members_;
+    if (IsCityObject(element.name)) context.object = ++num_objects_;
+    const std::string system = element.Attribute("srsName");
+    if (!system.empty()) coordinate_system_ = system;
+    if (element.name == "OrientableSurface" && element.Attribute("orientation") == "-") {
+      context.is_turned = !context.is_turned;
+    }
+    if (element.name == "ImplicitGeometry") context.model_from_drawn = ReadPlacement(element);
+    if (element.name == "libraryObject" ||
+        (element.name == "relativeGMLGeometry" && element.children.empty())) {
+      ++num_elsewhere_;
+    }
     if (element.name.size() > 3 && element.name.starts_with("lod") && element.name[3] >= '0' &&
         element.name[3] <= '4') {
       context.lod = element.name[3] - '0';
@@ -90,11 +147,13 @@ class CityGmlReader {
     const std::string name = element.ChildText("name");
     if (!name.empty()) {
       context.name = name;
-    } else if (element.name.ends_with("Surface") && !element.name.starts_with("lod") &&
-               element.name != "MultiSurface" && element.name != "CompositeSurface") {
+    } else if (element.name.ends_with("Surface") && element.name.front() <= 'Z' &&
+               element.name != "MultiSurface" && element.name != "CompositeSurface" &&
+               element.name != "OrientableSurface" && element.name != "TriangulatedSurface") {
       context.name = element.name;  // "RoofSurface"
     }
-    if (element.name == "Polygon") {
+    // Terrain is of triangles, which are written like polygons.
+    if (element.name == "Polygon" || element.name == "Triangle" || element.name == "Rectangle") {
       AddPolygon(element, context);
       return;
     }
@@ -103,18 +162,20 @@ class CityGmlReader {
 
   const std::filesystem::path& file_;
   std::vector<GmlPolygon> polygons_;
-  int num_members_ = 0;
+  int num_objects_ = 0;
+  int num_elsewhere_ = 0;
+  std::string coordinate_system_;
 };
 
 // Of each object the finest level only: the others show it again.
 size_t KeepFinest(std::vector<GmlPolygon>& polygons) {
   std::map<int, int> finest;
   for (const GmlPolygon& polygon : polygons) {
-    const auto [place, is_new] = finest.emplace(polygon.member, polygon.lod);
+    const auto [place, is_new] = finest.emplace(polygon.object, polygon.lod);
     if (!is_new) place->second = std::max(place->second, polygon.lod);
   }
   return std::erase_if(
-      polygons, [&](const GmlPolygon& polygon) { return polygon.lod < finest.at(polygon.member); });
+      polygons, [&](const GmlPolygon& polygon) { return polygon.lod < finest.at(polygon.object); });
 }
 
 void AddGmlFace(const GmlPolygon& polygon, PolygonModel& model) {
@@ -151,15 +212,66 @@ void JoinPoints(PolygonModel& model) {
   model.points_in_world = std::move(joined);
 }
 
+int EpsgCode(const std::string& coordinate_system) {
+  const std::string lower = LowerCase(coordinate_system);
+  const size_t end = lower.find_last_not_of("0123456789");
+  const std::string number = end == std::string::npos ? lower : lower.substr(end + 1);
+  if (lower.find("epsg") == std::string::npos || number.empty() || number.size() > 5) return 0;
+  return std::stoi(number);
+}
+
+// The geographic systems that city models are met in: WGS 84, ETRS89, NAD83, with heights or not.
+bool IsInDegrees(const std::string& coordinate_system) {
+  constexpr std::array kGeographic = {4326, 4979, 4258, 4937, 4269, 4957, 6318, 6319};
+  return coordinate_system.find("CRS84") != std::string::npos ||
+         std::find(kGeographic.begin(), kGeographic.end(), EpsgCode(coordinate_system)) !=
+             kGeographic.end();
+}
+
+// The state planes of the USA in survey feet, by their numbers in EPSG's register (NAD83, its HARN,
+// NSRS2007 and 2011 versions), or by name.
+bool IsInFeet(const std::string& coordinate_system) {
+  const std::string lower = LowerCase(coordinate_system);
+  if (lower.find("ftus") != std::string::npos || lower.find("foot") != std::string::npos) {
+    return true;
+  }
+  const int code = EpsgCode(coordinate_system);
+  return (code >= 2225 && code <= 2272) || (code >= 2276 && code <= 2280) ||
+         (code >= 2283 && code <= 2289) || (code >= 3417 && code <= 3438) ||
+         (code >= 3441 && code <= 3459);
+}
+
 }  // namespace
 
 ModelReading ReadCityGml(const std::filesystem::path& file) {
-  std::vector<GmlPolygon> polygons = CityGmlReader(file).Read();
+  CityGmlReader reader(file);
+  std::vector<GmlPolygon> polygons = reader.Read();
   if (polygons.empty())
     throw Error(file, "holds no gml:Polygon, and so no face of a CityGML model");
   ModelReading reading;
   PolygonModel& model = reading.model;
   model.unit = LengthUnit::kMetre;
+  if (IsInDegrees(reader.coordinate_system())) {
+    throw Error(file,
+                reader.coordinate_system() +
+                    " counts in degrees of latitude and longitude, of which no model can be made; "
+                    "export it in metres, in a projected system (UTM, Gauss-Krueger)");
+  }
+  if (IsInFeet(reader.coordinate_system())) {
+    model.unit = LengthUnit::kUsSurveyFoot;
+    reading.warnings.push_back(
+        Error(file,
+              reader.coordinate_system() +
+                  " counts in US survey feet: so is the model taken; its heights may be in metres")
+            .what());
+  }
+  if (reader.num_elsewhere() > 0) {
+    reading.warnings.push_back(
+        Error(file,
+              std::to_string(reader.num_elsewhere()) +
+                  " shapes are left out that are drawn in another place or file (trees, lamps)")
+            .what());
+  }
   const size_t num_coarser = KeepFinest(polygons);
   if (num_coarser > 0) {
     reading.warnings.push_back(

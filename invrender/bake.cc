@@ -13,6 +13,7 @@
 #include "invrender/photos/earlier_model.h"
 #include "invrender/photos/prepared_photo.h"
 #include "invrender/plan/memory_plan.h"
+#include "scene/check_option.h"
 #include "scene/error.h"
 #include "scene/face_number.h"
 #include "scene/progress.h"
@@ -148,6 +149,11 @@ class Bake {
 
   // How much memory may go where, photographs made ready, and texels as small as they allow.
   void PreparePhotographs() {
+    if (options_.pages.texel_size > ComputeBounds(model_).Diagonal()) {
+      throw OptionError("page options: texel_size",
+                        "a texel of " + FormatNumber(options_.pages.texel_size) + " " +
+                            UnitName(model_.unit) + " is larger than the model");
+    }
     plan_.num_at_once = static_cast<int>(photographs_.size());
     plan_.chart_bytes = kNoLimit;
     if (IsLimited()) MakePlan();

@@ -139,8 +139,10 @@ std::vector<std::string> RestrictToPairs(const std::filesystem::path& file,
   };
   const size_t image_column = column("image");
   const size_t face_column = column("face");
-  if (header.size() != 2 || image_column == 2 || face_column == 2) {
-    throw Error(file, std::max(1, table.header_line()), "expected the first line to be image,face");
+  if (image_column == header.size() || face_column == header.size()) {
+    throw Error(file,
+                std::max(1, table.header_line()),
+                "expected the first line to name the columns: image,face");
   }
   const std::vector<PhotographName> names = NamesOf(photographs);
   std::map<int, std::set<size_t>> photographs_of_face;

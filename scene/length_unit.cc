@@ -5,7 +5,9 @@
 #include "scene/frames.h"
 #include "scene/text.h"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace groundglass {
 namespace {
@@ -14,14 +16,25 @@ struct NamedUnit {
   LengthUnit unit;
   const char* name;
   double metres;
+  // As people and programs write it in full, in the singular and the plural.
+  std::array<const char*, 4> words;
 };
 constexpr std::array<NamedUnit, 6> kUnits = {{
-    {LengthUnit::kFoot, "ft", kMetresPerFoot},
-    {LengthUnit::kMetre, "m", 1},
-    {LengthUnit::kMillimetre, "mm", 1e-3},
-    {LengthUnit::kCentimetre, "cm", 1e-2},
-    {LengthUnit::kInch, "in", 0.0254},
-    {LengthUnit::kUsSurveyFoot, "us-ft", 1200.0 / 3937.0},
+    {LengthUnit::kFoot, "ft", kMetresPerFoot, {"foot", "feet", "foot", "feet"}},
+    {LengthUnit::kMetre, "m", 1, {"metre", "metres", "meter", "meters"}},
+    {LengthUnit::kMillimetre,
+     "mm",
+     1e-3,
+     {"millimetre", "millimetres", "millimeter", "millimeters"}},
+    {LengthUnit::kCentimetre,
+     "cm",
+     1e-2,
+     {"centimetre", "centimetres", "centimeter", "centimeters"}},
+    {LengthUnit::kInch, "in", 0.0254, {"inch", "inches", "inch", "inches"}},
+    {LengthUnit::kUsSurveyFoot,
+     "us-ft",
+     1200.0 / 3937.0,
+     {"us survey foot", "us survey feet", "survey foot", "survey feet"}},
 }};
 
 const NamedUnit& Find(LengthUnit unit) {
@@ -40,7 +53,9 @@ std::string UnitName(LengthUnit unit) { return Find(unit).name; }
 std::optional<LengthUnit> FindUnit(std::string_view name) {
   const std::string lower = LowerCase(name);
   for (const NamedUnit& named : kUnits) {
-    if (lower == named.name) return named.unit;
+    const bool is_in_full =
+        std::find(named.words.begin(), named.words.end(), lower) != named.words.end();
+    if (lower == named.name || is_in_full) return named.unit;
   }
   return std::nullopt;
 }

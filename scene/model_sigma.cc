@@ -53,6 +53,12 @@ double DefaultModelSigma(const PolygonModel& model) {
   return sigma_m / MetresPerUnit(model.unit);
 }
 
+int LengthDecimals(const PolygonModel& model) {
+  const double sigma = DefaultModelSigma(model);
+  if (!(sigma > 0)) return 2;
+  return std::clamp(static_cast<int>(std::floor(1 - std::log10(sigma))), 0, 6);
+}
+
 double ModelSigma(const PolygonModel& model) {
   return model.sigma.value_or(DefaultModelSigma(model));
 }
@@ -72,6 +78,12 @@ void ReadSigmaComment(std::string_view rest,
                 "sigma: " + Quote(words.empty() ? "" : words.front().text) +
                     " is not a length above 0; expected how far the model's edges may lie off, in "
                     "the model's unit: 'sigma: 0.1'");
+  }
+  if (TrimBlanks(rest).ends_with('%')) {
+    throw Error(file,
+                line,
+                "sigma: a share of nothing that is known; expected a length in the model's unit: "
+                "'sigma: 0.1'");
   }
   // "0.1 in each direction" is no length in inches.
   const std::optional<LengthUnit> unit = words.size() == 2 ? FindUnit(words[1].text) : std::nullopt;

@@ -2,14 +2,17 @@
 // Part of Groundglass.
 #include "register/camera/control_points.h"
 
+#include "scene/building_bounds.h"
 #include "scene/error.h"
 #include "scene/formats/view_io.h"
 #include "scene/frames.h"
 #include "scene/text.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace groundglass {
 
@@ -20,6 +23,7 @@ std::vector<ControlPoint> ReadControlPoints(const std::filesystem::path& file) {
   struct Count {
     int first_line = 0;
     int points = 0;
+    std::set<std::array<double, 3>> places;
   };
   std::map<std::string, Count> count_of_photograph;
   for (const TextLine& line : SplitLines(text)) {
@@ -51,6 +55,7 @@ std::vector<ControlPoint> ReadControlPoints(const std::filesystem::path& file) {
     point.sigma_px = numbers[5];
     Count& count = count_of_photograph[point.photograph];
     if (count.points++ == 0) count.first_line = line.number;
+    count.places.insert({numbers[2], numbers[3], numbers[4]});
   }
   if (points.empty()) throw Error(file, "there is no point in it");
   for (const auto& [photograph, count] : count_of_photograph) {
@@ -60,8 +65,47 @@ std::vector<ControlPoint> ReadControlPoints(const std::filesystem::path& file) {
                   "photograph " + Quote(photograph) + " has " + std::to_string(count.points) +
                       (count.points == 1 ? " point" : " points") + "; three or more are needed");
     }
+    if (count.places.size() < 3) {
+      throw Error(file,
+                  count.first_line,
+                  "photograph " + Quote(photograph) + " has points at " +
+                      std::to_string(count.places.size()) +
+                      (count.places.size() == 1 ? " place" : " places") +
+                      " of the model; three or more are needed");
+    }
   }
   return points;
+}
+
+void CheckControlPoints(const std::filesystem::path& file,
+                        const std::vector<ControlPoint>& points,
+                        const Scene& scene) {
+  constexpr double kFrames = 0.5;
+  constexpr double kModels = 100;
+  const Box bounds = ComputeBuildingBounds(scene.model);
+  for (const ControlPoint& point : points) {
+    const std::string of = "a point of " + Quote(point.photograph);
+    if ((point.point_in_world - bounds.Center()).norm() > kModels * bounds.Diagonal()) {
+      const Eigen::Vector3d in_site = SiteFromWorld(point.point_in_world);
+      throw Error(file,
+                  of + " is at " + FormatNumber(in_site.x()) + " " + FormatNumber(in_site.y()) +
+                      " " + FormatNumber(in_site.z()) +
+                      ", far from the model; expected a place of it, in its own numbers");
+    }
+    const auto photograph = std::find_if(
+        scene.photographs.begin(), scene.photographs.end(), [&](const Photograph& one) {
+          return one.name == point.photograph;
+        });
+    if (photograph == scene.photographs.end()) continue;
+    const Eigen::Vector2d size(photograph->size.width, photograph->size.height);
+    if ((point.image_px.array() < -kFrames * size.array()).any() ||
+        (point.image_px.array() > (1 + kFrames) * size.array()).any()) {
+      throw Error(file,
+                  of + " is at " + FormatNumber(point.image_px.x()) + " " +
+                      FormatNumber(point.image_px.y()) + " pixels, outside its picture of " +
+                      FormatNumber(size.x()) + " x " + FormatNumber(size.y()));
+    }
+  }
 }
 
 }  // namespace groundglass

@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/formats/scene.h"
+
 #include <Eigen/Dense>
 
 #include <filesystem>
@@ -22,5 +24,11 @@ struct ControlPoint {
 // line, x y z in `site`. Throws Error naming file and line; a photograph with fewer than three
 // points is an error too.
 std::vector<ControlPoint> ReadControlPoints(const std::filesystem::path& file);
+
+// Throws Error naming the file and the point for one that lies half a frame and more outside its
+// photograph (those of other names are left alone), or a hundred models' sizes away from the model.
+void CheckControlPoints(const std::filesystem::path& file,
+                        const std::vector<ControlPoint>& points,
+                        const Scene& scene);
 
 }  // namespace groundglass

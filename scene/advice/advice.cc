@@ -87,6 +87,8 @@ std::vector<Advice> FindModelOddities(const Scene& scene, const ModelOptions& op
       scene, options, bounds, visibility, FindStandpoints(scene, bounds, visibility), found};
   // Such cameras need not be held by people, who tell the unit.
   AdviseOnModel(context, Misreading::kOther);
+  const PictureJudge judge(scene);
+  AdviseOnGivenCameras(context, &judge);
   if (!ShowsBacksOnly(context)) AdviseOnWinding(context);
   return found;
 }

@@ -21,6 +21,8 @@ constexpr double kOddAspect = 1.3;
 // Of frames of one lens.
 constexpr double kSameAngleDeg = 0.05;
 constexpr double kSameShape = 0.03;
+// A half turn; lenses of less than 3.2 degrees are of 640 mm and more.
+constexpr double kLargestInRadians = 3.2;
 
 bool Suits(double tag_aspect, double picture_aspect) {
   const double ratio = tag_aspect / picture_aspect;
@@ -274,9 +276,26 @@ void AdviseOnUprightAngles(const AdviceContext& context) {
                   " in the upright ones");
 }
 
+// Angles that only the longest lenses have, in every tag.
+void AdviseOnRadians(const AdviceContext& context) {
+  const std::vector<Photograph>& photographs = context.scene.photographs;
+  const bool are_all = std::all_of(photographs.begin(), photographs.end(), [](const auto& one) {
+    return one.tag.view_angle_deg < kLargestInRadians;
+  });
+  if (!are_all || photographs.empty()) return;
+  const double v = photographs.front().tag.view_angle_deg;
+  context.Add(
+      Advice::Severity::kScene,
+      context.scene.folder.string(),
+      "v is " + FormatNumber(v) + " in " + photographs.front().name +
+          " and as little in all others: an angle in radians, it seems",
+      "write degrees: v " + FormatNumber(std::round(100 * DegreesFromRadians(v)) / 100) + " there");
+}
+
 }  // namespace
 
 void AdviseOnFrames(const AdviceContext& context) {
+  AdviseOnRadians(context);
   for (const Photograph& photograph : context.scene.photographs) {
     AdviseOnAspect(context, photograph);
   }

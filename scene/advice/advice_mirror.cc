@@ -173,7 +173,9 @@ bool AdviseOnBacks(const AdviceContext& context, const PictureJudge* judge) {
     remedy = mirrored->remedy;
   } else {
     why = clockwise;
-    remedy = "give --flip-faces, or turn them where the model was made";
+    remedy = context.options.flip_faces
+                 ? "leave out --flip-faces"
+                 : "give --flip-faces, or turn them where the model was made";
   }
   context.Add(Advice::Severity::kScene, context.scene.model_file.string(), shown + why, remedy);
   return true;

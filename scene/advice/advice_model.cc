@@ -2,6 +2,7 @@
 // Part of Groundglass.
 // What a model tells about itself: too large, too small, saved through single precision.
 #include "scene/advice/advice_parts.h"
+#include "scene/model_sigma.h"
 #include "scene/quantile.h"
 #include "scene/text.h"
 
@@ -156,7 +157,27 @@ void AdviseOnStatedUnit(const AdviceContext& context) {
 
 }  // namespace
 
+namespace {
+
+// A tolerance with which no line of the model could be told from another.
+void AdviseOnTolerance(const AdviceContext& context) {
+  constexpr double kMostShare = 0.05;
+  const PolygonModel& model = context.scene.model;
+  const double diagonal = context.bounds.Diagonal();
+  if (!(ModelSigma(model) > kMostShare * diagonal)) return;
+  context.Add(Advice::Severity::kScene,
+              context.scene.model_file.string(),
+              "its edges may lie " + FormatLength(ModelSigma(model), model.unit) +
+                  " off, and it is " + FormatLength(diagonal, model.unit) +
+                  " from corner to corner: no line of it can be told from another",
+              "say in the model's unit how far its edges may be off ('% sigma:' in the model, or "
+              "--sigma-model)");
+}
+
+}  // namespace
+
 void AdviseOnModel(const AdviceContext& context, Misreading misreading) {
+  AdviseOnTolerance(context);
   // How high cameras stand says something of the unit only where most of them look at the model.
   constexpr double kMost = 0.7;
   const auto num_plausible =

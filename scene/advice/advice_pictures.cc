@@ -23,7 +23,7 @@ struct Alternative {
   const char* message;
   const char* remedy;
 };
-constexpr std::array<Alternative, 5> kAlternatives = {{
+constexpr std::array<Alternative, 6> kAlternatives = {{
     {&PictureFit::upside_down,
      "the picture is turned by 180 degrees",
      "turn the picture (with an image editor, or its EXIF orientation)"},
@@ -36,6 +36,9 @@ constexpr std::array<Alternative, 5> kAlternatives = {{
     {&PictureFit::diagonal_angle,
      "v is the view angle from corner to corner, as lens makers give it",
      "v is the horizontal one: write 2 atan(a / sqrt(1 + a^2) tan(v / 2)) in its place"},
+    {&PictureFit::half_angle,
+     "v is half the view angle, from the axis to the frame's edge",
+     "v is the whole one, from the left edge to the right one: write twice as much"},
     {&PictureFit::focal_length,
      "v is the lens's focal length in mm, before 35 mm film",
      "v is the horizontal view angle in degrees: write 2 atan(18 / v) in its place for a frame "
@@ -43,6 +46,8 @@ constexpr std::array<Alternative, 5> kAlternatives = {{
      "lies, 2 atan(12 / v) for one that stands"},
 }};
 
+// Twice as much is more than fisheyes alone have.
+constexpr double kLargestHalfDeg = 60;
 constexpr double kMeanLead = 1;
 constexpr double kMostPictures = 0.7;
 
@@ -109,6 +114,11 @@ PictureFit FitPicture(const AdviceContext& context,
   result.vertical_angle = fit_of(upright, WithTangentTimes(tag, tag.aspect));
   result.diagonal_angle =
       fit_of(upright, WithTangentTimes(tag, tag.aspect / std::hypot(1.0, tag.aspect)));
+  if (tag.view_angle_deg < kLargestHalfDeg) {
+    ViewTag doubled = tag;
+    doubled.view_angle_deg *= 2;
+    result.half_angle = fit_of(upright, doubled);
+  }
   ViewTag by_lens = tag;
   by_lens.view_angle_deg = ViewAngleDegFromFocalLength(tag.view_angle_deg, tag.aspect);
   result.focal_length = fit_of(upright, by_lens);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace groundglass {
 namespace {
@@ -152,7 +153,7 @@ Reading NorthInTags(const AdviceContext& context) {
 
 // The tags' numbers, written in another order or with another sign.
 std::vector<Reading> OtherTags(const AdviceContext& context) {
-  using Order = Eigen::Vector3d (*)(const Eigen::Vector3d&);
+  using Order = Eigen::Vector3d (*)(const Eigen::Vector3d&);  // what was meant by a place
   std::vector<Reading> readings;
   const auto add = [&](Reading reading, Order in_site) {
     reading.retag = [in_site](ViewTag tag) {
@@ -177,6 +178,36 @@ std::vector<Reading> OtherTags(const AdviceContext& context) {
   west.message = "x counts west in the tags, or in the model";
   west.remedy = "in view files x counts east: change the signs of x and i in every tag";
   add(west, [](const auto& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); });
+  // Heights below 0 by chance are of another zero.
+  const auto are_all = [&](const auto& is_so) {
+    return std::all_of(context.scene.photographs.begin(),
+                       context.scene.photographs.end(),
+                       [&](const auto& one) { return is_so(one.tag); });
+  };
+  const bool looks_down = are_all([](const ViewTag& tag) { return tag.lookat_in_site.z() < 0; });
+  if (looks_down && are_all([](const ViewTag& tag) { return tag.position_in_site.z() < 0; })) {
+    Reading down;
+    down.message = "z counts downwards in the tags, or in the model";
+    down.remedy = "in view files z counts up: change the signs of z and k in every tag";
+    add(down, [](const auto& p) { return Eigen::Vector3d(p.x(), p.y(), -p.z()); });
+  } else if (looks_down) {
+    Reading down;
+    down.message = "k counts downwards in the tags, and z upwards";
+    down.remedy = "in view files both count up: change the sign of k in every tag";
+    down.retag = [](ViewTag tag) {
+      tag.lookat_in_site.z() *= -1;
+      return tag;
+    };
+    readings.push_back(std::move(down));
+  }
+  Reading turned;
+  turned.message = "the cameras' places and the points that they look at are exchanged";
+  turned.remedy = "x y z is where the camera stood: exchange x with i, y with j, and z with k";
+  turned.retag = [](ViewTag tag) {
+    std::swap(tag.position_in_site, tag.lookat_in_site);
+    return tag;
+  };
+  readings.push_back(std::move(turned));
   return readings;
 }
 
@@ -199,6 +230,21 @@ std::vector<Reading> OtherDatums(const AdviceContext& context,
   const double by_eye = camera_heights[camera_heights.size() / 2] - eye - context.bounds.min.z();
   const double by_lookat = lookat_heights[lookat_heights.size() / 2] - context.bounds.Center().z();
   std::vector<Reading> readings;
+  // Where the cameras stand beside the building, only what they look at may count so.
+  const double middle_height = camera_heights[camera_heights.size() / 2];
+  if (middle_height > context.bounds.min.z() && middle_height < context.bounds.max.z()) {
+    Reading& reading = readings.emplace_back();
+    reading.retag = [by_lookat](ViewTag tag) {
+      tag.lookat_in_site.z() -= by_lookat;
+      return tag;
+    };
+    reading.message = "k lies about " +
+                      FormatLength(std::abs(by_lookat), context.scene.model.unit) +
+                      (by_lookat > 0 ? " too high" : " too low") +
+                      " in all tags, so that it counts from another zero than z";
+    reading.remedy = "count both from the model's: change k of every tag by about " +
+                     FormatNumber(-std::round(by_lookat * 10) / 10);
+  }
   for (const double datum : {by_eye, by_lookat}) {
     Reading& reading = readings.emplace_back();
     reading.model.offset.z() = datum;

@@ -24,6 +24,7 @@ struct PictureFit {
   AlternativeFit mirrored;
   AlternativeFit vertical_angle;  // v taken as the angle up and down the frame
   AlternativeFit diagonal_angle;  // ... as the angle from corner to corner
+  AlternativeFit half_angle;      // ... as the angle from the axis to the frame's edge
   AlternativeFit focal_length;    // ... as the lens's focal length in mm, before 35 mm film
 };
 

@@ -101,11 +101,26 @@ class GltfReader {
     const Eigen::Matrix4d transform = parent * GltfNodeTransform(node);
     if (node.mesh >= 0) {
       const tinygltf::Mesh& mesh = At(gltf_.meshes, node.mesh, "mesh");
+      TellWhatMovesIt(node, mesh);
       for (const tinygltf::Primitive& primitive : mesh.primitives) {
         AppendPrimitive(primitive, mesh.name, transform);
       }
     }
     for (const int child : node.children) AppendNode(child, transform, depth + 1);
+  }
+
+  // A building has no joints; what has is read as it was drawn.
+  void TellWhatMovesIt(const tinygltf::Node& node, const tinygltf::Mesh& mesh) {
+    const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
+    const bool is_morphed =
+        std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0; });
+    if (node.skin < 0 && !is_morphed) return;
+    reading_.warnings.push_back(
+        Error(
+            file_,
+            "mesh " + Quote(mesh.name) + (node.skin >= 0 ? " hangs on a skeleton" : " is morphed") +
+                ", which is not read: it stands as it was drawn; export it with modifiers applied")
+            .what());
   }
 
   std::vector<double> ReadAccessor(int index, int width) const {
@@ -117,7 +132,10 @@ class GltfReader {
                        const Eigen::Matrix4d& transform) {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return;
-    if (primitive.extensions.count("KHR_draco_mesh_compression") > 0) {
+    // A mesh may come both ways, for programs that cannot unpack it.
+    const bool is_there_unpacked =
+        At(gltf_.accessors, position->second, "accessor").bufferView >= 0;
+    if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 && !is_there_unpacked) {
       Fail("a mesh is compressed by Draco (KHR_draco_mesh_compression); write it again without");
     }
     Vertices vertices;

@@ -4,8 +4,10 @@
 
 #include "scene/error.h"
 #include "scene/formats/coloured_model_io.h"
+#include "scene/formats/image_kind.h"
 #include "scene/formats/mesh_io.h"
 #include "scene/formats/obj_io.h"
+#include "scene/formats/text_encoding.h"
 #include "scene/frames.h"
 #include "scene/mend_faces.h"
 #include "scene/text.h"
@@ -85,6 +87,36 @@ void ApplyModelOptions(const std::filesystem::path& file,
 
 namespace {
 
+// What was downloaded or packed under a model's name is something else.
+std::string WhyNoFaces(const std::filesystem::path& file) {
+  const ImageKind kind = FindImageKind(file);
+  const bool is_archive = kind.description.ends_with("archive");
+  if (is_archive) return "this is " + kind.description + " and no model; " + kind.remedy;
+  if (kind.description == "a web page") {
+    return "this is a web page and no model; save the file that the page offers";
+  }
+  return "this model has no faces";
+}
+
+// Names from an old plan or program would break every file and page that repeats them.
+void NameFacesInUtf8(const std::filesystem::path& file,
+                     PolygonModel& model,
+                     std::vector<std::string>& warnings) {
+  bool is_told = false;
+  for (int i = 0; i < static_cast<int>(model.faces.size()); ++i) {
+    Face& face = model.faces[static_cast<size_t>(i)];
+    if (IsUtf8(face.name)) continue;
+    face.name = Utf8FromBytes(face.name).text;
+    if (is_told) continue;
+    warnings.push_back(Error(file,
+                             "names of faces are not UTF-8 and are read as Windows-1252: " +
+                                 DescribeFace(model, i) +
+                                 "; if letters are wrong, save the file as UTF-8")
+                           .what());
+    is_told = true;
+  }
+}
+
 TexturedModelReading ReadAnyModel(const std::filesystem::path& file,
                                   const ModelOptions& options,
                                   MeshPages pages) {
@@ -104,7 +136,7 @@ TexturedModelReading ReadAnyModel(const std::filesystem::path& file,
     MendedFaces mended = MendFaces(file, mesh.face_lines, model, textures);
     WarnOfFaults(file, mesh.face_lines, mended);
     if (mended.usable.empty()) {
-      throw Error(mended.faults.empty() ? Error(file, "this model has no faces").what()
+      throw Error(mended.faults.empty() ? Error(file, WhyNoFaces(file)).what()
                                         : mended.warnings.back());
     }
     result.warnings.insert(result.warnings.end(), mended.warnings.begin(), mended.warnings.end());
@@ -112,6 +144,7 @@ TexturedModelReading ReadAnyModel(const std::filesystem::path& file,
     result.left_out.insert(result.left_out.end(), mesh.left_out.begin(), mesh.left_out.end());
     std::sort(result.left_out.begin(), result.left_out.end());
   }
+  NameFacesInUtf8(file, model, result.warnings);
   if (extension != ".glb" && extension != ".gltf") SetUnit(options, model);
   textures.resize(model.faces.size());
   ApplyModelOptions(file, options, model);

@@ -58,7 +58,10 @@ class ObjReader {
       if (LowerCase(comment.substr(0, key.size())) != key) return std::nullopt;
       return TrimBlanks(comment.substr(key.size()));
     };
-    if (const auto word = field("unit:")) {
+    auto word = field("unit:");
+    if (!word) word = field("file units =");  // as SketchUp writes
+    if (!word) word = field("units:");
+    if (word) {
       if (const auto unit = FindUnit(*word)) {
         reading_.model.unit = *unit;
         reading_.model.is_unit_assumed = false;

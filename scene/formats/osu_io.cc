@@ -57,6 +57,12 @@ void ReadModelComments(const std::filesystem::path& name,
         throw Error(
             name, line.number, "unit " + Quote(unit) + " is not known; expected " + UnitNames());
       }
+      if (!model.is_unit_assumed && model.unit != *known) {
+        throw Error(name,
+                    line.number,
+                    "unit " + Quote(unit) + ", but a line before says " + UnitName(model.unit) +
+                        "; leave the right one");
+      }
       model.unit = *known;
       model.is_unit_assumed = false;
     } else if (const auto origin = CommentField(line, "origin:")) {

@@ -4,6 +4,7 @@
 
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
+#include "scene/formats/input_folders.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
 
@@ -134,6 +135,7 @@ std::string HashText(const std::string& text) {
 }
 
 FolderLock PrepareOutputFolder(const std::filesystem::path& folder) {
+  RefuseAmongInputs(folder);
   std::error_code failure;
   if (std::filesystem::exists(folder, failure) && !std::filesystem::is_directory(folder)) {
     throw Error(folder, "is a file; the output needs a folder");

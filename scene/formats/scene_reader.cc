@@ -11,6 +11,7 @@
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/text_encoding.h"
 #include "scene/formats/view_io.h"
+#include "scene/shell_word.h"
 
 #include <tbb/parallel_for.h>
 
@@ -94,6 +95,10 @@ std::string SceneReader::OtherModels() const {
   for (const fs::path& file : ListFiles(folder_)) {
     const bool is_known = HasExtension(file, kModelExtensions) || file.extension() == ".mtl";
     if (file.stem() != "model" || is_known) continue;
+    if (LowerCase(file.extension().string()) == ".gml") {
+      return "; " + file.filename().string() + " is CityGML: groundglass convert " +
+             ShellWord(file) + " " + ShellWord(folder_ / "model.osu") + " makes a model of it";
+    }
     return "; " + file.filename().string() +
            " is of a kind that is not read: export it as one of these from the program that made "
            "it";

@@ -108,6 +108,16 @@ class TableReader {
   bool ReadHeader(int line, const std::vector<std::string>& names) {
     const size_t faults_before = table_.faults.size();
     const std::vector<std::string> known = KnownColumns();
+    const auto num_known = std::count_if(names.begin(), names.end(), [&](const auto& name) {
+      return std::find(known.begin(), known.end(), name) != known.end();
+    });
+    // One may be a word of a title.
+    if (num_known < 2) {
+      Fail(line,
+           "expected the first line to name the columns, parted by commas, semicolons or tabs: "
+           "image,x,y,z,i,j,k,a,v");
+      return false;
+    }
     for (size_t i = 0; i < names.size(); ++i) {
       const std::string& name = names[i];
       if (std::find(known.begin(), known.end(), name) == known.end()) {
@@ -117,7 +127,12 @@ class TableReader {
       }
     }
     has_angles_ = Has("yaw") || Has("pitch");
-    is_geodetic_ = Has("lat") || Has("lon") || Has("height");
+    // A column of heights beside x, y and z is a remark.
+    is_geodetic_ = Has("lat") || Has("lon") || (Has("height") && !Has("z"));
+    if (Has("height") && !is_geodetic_) {
+      table_.warnings.push_back(
+          Error(file_, line, "column 'height' is not read beside x, y and z").what());
+    }
     const auto require = [&](std::initializer_list<const char*> required) {
       for (const char* name : required) {
         if (!Has(name)) Fail(line, "column " + Quote(name) + " is missing");

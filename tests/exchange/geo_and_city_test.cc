@@ -161,6 +161,79 @@ TEST(CityGml, TheFinestPolygonsComeWithHolesAndNames) {
   EXPECT_EQ(reading.model.points_in_world[0].x(), 691000.25);
 }
 
+std::string GmlPolygon(const std::string& points, const std::string& element = "Polygon") {
+  return "<gml:" + element + "><gml:exterior><gml:LinearRing><gml:posList>" + points +
+         "</gml:posList></gml:LinearRing></gml:exterior></gml:" + element + ">";
+}
+
+ModelReading ReadCity(const TemporaryFolder& folder,
+                      const std::string& members,
+                      const std::string& srs_name = "EPSG:25832") {
+  return ReadCityGml(folder.Write(
+      "city.gml",
+      "<core:CityModel xmlns:core=\"c\" xmlns:gml=\"g\"><gml:boundedBy><gml:Envelope srsName=\"" +
+          srs_name + "\"/></gml:boundedBy>" + members + "</core:CityModel>"));
+}
+
+constexpr char kSquare[] = "0 0 0 4 0 0 4 4 0 0 4 0 0 0 0";
+
+TEST(CityGml, ASurfaceThatIsTurnedRunsTheOtherWay) {
+  const TemporaryFolder folder;
+  const ModelReading reading =
+      ReadCity(folder,
+               "<a><OrientableSurface orientation=\"-\"><gml:baseSurface>" + GmlPolygon(kSquare) +
+                   "</gml:baseSurface></OrientableSurface></a>");
+  ASSERT_EQ(reading.model.faces.size(), 1u);
+  EXPECT_LT(DoubledVectorArea(reading.model, 0).z(), 0);
+  EXPECT_EQ(reading.model.faces[0].name, "") << "baseSurface is no name";
+}
+
+TEST(CityGml, AShapeThatIsSetUpElsewhereStandsThere) {
+  const TemporaryFolder folder;
+  const ModelReading reading =
+      ReadCity(folder,
+               "<a><ImplicitGeometry><transformationMatrix>0 -1 0 0  1 0 0 0  0 0 2 0  0 0 0 1"
+               "</transformationMatrix><relativeGMLGeometry>" +
+                   GmlPolygon("0 0 1 4 0 1 4 3 1 0 0 1") +
+                   "</relativeGMLGeometry><referencePoint><gml:Point><gml:pos>100 200 30</gml:pos>"
+                   "</gml:Point></referencePoint></ImplicitGeometry></a>");
+  ASSERT_EQ(reading.model.points_in_world.size(), 3u);
+  EXPECT_EQ(reading.model.points_in_world[1], Eigen::Vector3d(100, 204, 32));
+  EXPECT_EQ(reading.model.points_in_world[2], Eigen::Vector3d(97, 204, 32));
+}
+
+TEST(CityGml, TerrainOfTrianglesIsRead) {
+  const TemporaryFolder folder;
+  const ModelReading reading = ReadCity(folder, GmlPolygon("0 0 0 4 0 0 4 4 1 0 0 0", "Triangle"));
+  EXPECT_EQ(reading.model.faces.size(), 1u);
+}
+
+TEST(CityGml, EachPartHasItsFinestLevel) {
+  const TemporaryFolder folder;
+  const auto part = [](const std::string& name, const std::string& polygons) {
+    return "<BuildingPart><gml:name>" + name + "</gml:name>" + polygons + "</BuildingPart>";
+  };
+  const ModelReading reading = ReadCity(
+      folder,
+      "<core:cityObjectMember><Building>" +
+          part("tower",
+               "<lod1Solid>" + GmlPolygon("0 0 9 4 0 9 4 4 9 0 0 9") + "</lod1Solid><lod2Solid>" +
+                   GmlPolygon(kSquare) + "</lod2Solid>") +
+          part("shed", "<lod1Solid>" + GmlPolygon("9 0 0 9 4 0 9 4 4 9 0 0") + "</lod1Solid>") +
+          "</Building></core:cityObjectMember>");
+  ASSERT_EQ(reading.model.faces.size(), 2u);
+  EXPECT_EQ(reading.model.faces[0].name, "tower");
+  EXPECT_EQ(reading.model.faces[1].name, "shed");
+  EXPECT_EQ(reading.warnings.size(), 1u);
+}
+
+TEST(CityGml, StatePlanesAreInFeet) {
+  const TemporaryFolder folder;
+  const ModelReading reading = ReadCity(folder, GmlPolygon(kSquare), "urn:ogc:def:crs:EPSG::2263");
+  EXPECT_EQ(reading.model.unit, LengthUnit::kUsSurveyFoot);
+  EXPECT_THAT(reading.warnings, testing::Contains(HasSubstr("US survey feet")));
+}
+
 TEST(CityGml, AnotherXmlIsAnErrorThatSaysSo) {
   const TemporaryFolder folder;
   EXPECT_THAT(ThrownMessage([&] { ReadCityGml(folder.Write("a.gml", "<a/>")); }),

@@ -69,7 +69,9 @@ TEST(RestrictToPairs, NamedFacesTakeOnlyTheirPhotographs) {
   const TemporaryFolder folder;
   const PolygonModel model = FiveWalls();
   std::vector<BakePhotograph> photographs = Named({"s1", "s2"});
-  WriteFileAtomically(folder / "pairs.csv", "image,face\ns1,1\n\ns2.jpg, porch\r\ns1,2 % both\n");
+  WriteFileAtomically(
+      folder / "pairs.csv",
+      "Image,remark,face\ns1,,1\n\ns2.jpg,\"late, from the east\", porch\r\ns1,,2 % both\n");
   RestrictToPairs(folder / "pairs.csv", model, photographs);
   EXPECT_THAT(*photographs[0].faces, ElementsAre(0, 1, 2, 4));
   EXPECT_THAT(*photographs[1].faces, ElementsAre(1, 2, 3, 4));

@@ -88,6 +88,8 @@ TEST(SigmaComment, ThatIsNoLengthIsAnErrorWithItsLine) {
   }
   EXPECT_THAT(ThrownMessage([&] { ParseOsu(Osu("% unit: m\n% sigma: 30 mm\n"), "a.osu"); }),
               testing::HasSubstr("a.osu:2: sigma is in mm, but the model is in m"));
+  EXPECT_THAT(ThrownMessage([&] { ParseOsu(Osu("% unit: m\n% sigma: 0.1 %\n"), "a.osu"); }),
+              testing::HasSubstr("a.osu:2: sigma: a share of nothing that is known"));
 }
 
 TEST(SigmaComment, SurvivesEveryFormatThatIsWritten) {

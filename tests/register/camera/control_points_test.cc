@@ -96,6 +96,24 @@ TEST(ControlPoints, FaultsNameFileAndLine) {
   EXPECT_THAT(message("s1 1 2 3 4 5 2\ns1 1 2 3 4 5 2\n"),
               HasSubstr("a.points:1: photograph 's1' has 2 points; three or more are needed"));
   EXPECT_THAT(message("% nothing\n"), HasSubstr("a.points: there is no point in it"));
+  EXPECT_THAT(message("s1 1 2 3 4 5 2\ns1 6 7 3 4 5 2\ns1 8 9 3 4 9 2\n"),
+              HasSubstr("a.points:1: photograph 's1' has points at 2 places of the model"));
+}
+
+TEST(ControlPoints, AreRefusedFarFromModelAndPicture) {
+  Scene scene;
+  scene.model.points_in_world = {{0, 0, 0}, {9, 0, 0}, {9, 0, 9}};
+  scene.model.faces = {{{0, 1, 2}, ""}};
+  scene.photographs.emplace_back().name = "s1";
+  scene.photographs[0].size = {640, 427};
+  const auto message = [&](const Eigen::Vector2d& image_px, const Eigen::Vector3d& point) {
+    return ThrownMessage([&] { CheckControlPoints("a.points", {{"s1", image_px, point}}, scene); });
+  };
+  EXPECT_EQ(message({700, -10}, {9, 0, 30}), "nothing was thrown");
+  EXPECT_THAT(message({9999, 10}, {9, 0, 9}),
+              HasSubstr("a.points: a point of 's1' is at 9999 10 pixels, outside its picture"));
+  EXPECT_THAT(message({10, 10}, {9, 0, 9000}),
+              HasSubstr("a point of 's1' is at 9 0 9000, far from the model"));
 }
 
 TEST(ControlPointCost, DerivativesAreThoseOfTheResiduals) {

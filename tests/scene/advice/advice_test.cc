@@ -394,6 +394,59 @@ TEST(FindOddities, ViewAnglesOfTheOtherSide) {
   EXPECT_EQ(found[0].severity, Advice::Severity::kScene);
 }
 
+TEST(Oddities, HeightsThatCountDownwardsAreTold) {
+  Scene scene = ReadBrick();
+  MoveTags(scene, [](const auto& p) { return Eigen::Vector3d(p.x(), p.y(), -p.z()); });
+  const std::vector<Advice> found = FindOddities(scene);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(FormatAdvice(found[0]), HasSubstr("z counts downwards in the tags"));
+}
+
+TEST(Oddities, LookAtPointsOfAnotherZeroAreTold) {
+  Scene scene = ReadBrick();
+  for (Photograph& photograph : scene.photographs) photograph.tag.lookat_in_site.z() += 60;
+  const std::vector<Advice> found = FindOddities(scene);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(FormatAdvice(found[0]), HasSubstr("too high in all tags"));
+}
+
+TEST(Oddities, PlacesAndLookAtPointsThatAreExchangedAreTold) {
+  Scene scene = ReadBrick();
+  for (Photograph& photograph : scene.photographs) {
+    std::swap(photograph.tag.position_in_site, photograph.tag.lookat_in_site);
+  }
+  const std::vector<Advice> found = FindOddities(scene);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(FormatAdvice(found[0]), HasSubstr("are exchanged"));
+}
+
+TEST(Oddities, AnglesInRadiansAndHalfAnglesAreTold) {
+  Scene scene = ReadBrick();
+  for (Photograph& photograph : scene.photographs) {
+    photograph.tag.view_angle_deg *= M_PI / 180;
+  }
+  EXPECT_THAT(Oddities(scene), ElementsAre(HasSubstr("an angle in radians, it seems")));
+  for (Photograph& photograph : scene.photographs) {
+    photograph.tag.view_angle_deg *= 180 / M_PI / 2;
+  }
+  const std::vector<Advice> found = FindOddities(scene);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(FormatAdvice(found[0]), HasSubstr("v is half the view angle"));
+}
+
+// Their tags are made from them, and look at the model's middle.
+TEST(Oddities, GivenCamerasOfAnotherUnitAreTold) {
+  const std::filesystem::path brick = kBrick;
+  SceneOptions options;
+  options.views = brick / "truth/cameras";
+  Scene scene = ReadScene(brick, options);
+  EXPECT_THAT(FindModelOddities(scene), IsEmpty());
+  MovePoints(scene, [](const auto& p) { return Eigen::Vector3d(0.3048 * p); });
+  const std::vector<Advice> found = FindModelOddities(scene);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(FormatAdvice(found[0]), HasSubstr("3.28 times as large"));
+}
+
 TEST(Oddities, ALensWrittenInPlaceOfTheViewAngleIsTold) {
   Scene scene = ReadBrick();
   for (Photograph& photograph : scene.photographs) {

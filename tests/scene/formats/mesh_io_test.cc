@@ -183,6 +183,35 @@ TEST(Mesh, AFaceWithACornerThatIsNoNumberIsLeftOut) {
   }
 }
 
+TEST(Model, NamesOfFacesComeInUtf8) {
+  const TemporaryFolder folder;
+  const ModelReading reading = ReadModel(folder.Write("m.obj",
+                                                      "v 0 0 0\nv 4 0 0\nv 4 3 0\ng Stra\xDF"
+                                                      "e\nf 1 2 3\n"));
+  EXPECT_EQ(reading.model.faces[0].name, "Straße");
+  EXPECT_THAT(reading.warnings, Contains(HasSubstr("names of faces are not UTF-8")));
+}
+
+TEST(Model, WhatIsNoneIsNamed) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& text) {
+    return ThrownMessage([&] { ReadModel(folder.Write("m.obj", text)); });
+  };
+  EXPECT_THAT(message("PK\x03\x04 packed"), HasSubstr("this is a zip archive and no model"));
+  EXPECT_THAT(message("<!DOCTYPE html>\n<html></html>\n"), HasSubstr("this is a web page"));
+}
+
+TEST(Obj, UnitsMayBeWrittenInFull) {
+  const TemporaryFolder folder;
+  const std::string faces = "v 0 0 0\nv 4 0 0\nv 4 3 0\nf 1 2 3\n";
+  for (const char* comment : {"# unit: metres", "# File units = meters", "# units: m"}) {
+    const PolygonModel model =
+        ReadModel(folder.Write("m.obj", std::string(comment) + "\n" + faces)).model;
+    EXPECT_EQ(model.unit, LengthUnit::kMetre) << comment;
+    EXPECT_FALSE(model.is_unit_assumed) << comment;
+  }
+}
+
 // Floats of four corners and their texture points, then indices of sparse exceptions.
 std::string GltfBytes() {
   return Bytes<float>({0, 0, 0, 4, 0, 0, 0, 3, 0, 4, 3, 0}) +          // 48: a strip's corners

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of Groundglass.
+// Cameras from elsewhere, whose unit or origin may be another than the model's. They have no
+// look-at points; where they stand, and that they see the model, is all that tells.
+#include "scene/advice/advice_judge.h"
+#include "scene/advice/advice_parts.h"
+#include "scene/advice/advice_readings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace groundglass {
+namespace {
+
+// Most of the model in the frame, or much of it, from outside.
+bool SeesIt(const Standpoint& standpoint) {
+  return !standpoint.is_inside && !standpoint.is_below_ground && standpoint.model_share >= 0.04 &&
+         standpoint.apparent_size > 0.15 && standpoint.apparent_size < 4;
+}
+
+// The mean score of right cameras is above this, that of wrong ones below (picture_fit.h).
+constexpr double kFittingScore = 3;
+
+double Mean(const std::vector<double>& values) {
+  return std::reduce(values.begin(), values.end()) / static_cast<double>(values.size());
+}
+
+double ShareThatSees(const AdviceContext& context,
+                     const std::vector<const Photograph*>& photographs,
+                     const OtherReading& reading) {
+  double num_seeing = 0;
+  for (const Photograph* photograph : photographs) {
+    num_seeing += SeesIt(FindStandpoint(context.bounds,
+                                        context.visibility,
+                                        context.scene.model,
+                                        photograph->tag,
+                                        photograph->size,
+                                        reading))
+                      ? 1
+                      : 0;
+  }
+  return num_seeing / static_cast<double>(photographs.size());
+}
+
+}  // namespace
+
+void AdviseOnGivenCameras(const AdviceContext& context, const PictureJudge* judge) {
+  constexpr double kFew = 0.5;
+  constexpr double kMost = 0.8;
+  const std::vector<const Photograph*> photographs = SomePhotographs(context.scene);
+  if (photographs.size() < kFewestTags) return;
+  const std::vector<Reading> readings = OtherUnits(context, AxesOptions(context.options));
+  const double as_read = ShareThatSees(context, photographs, {});
+  const std::vector<double> fits_as_read =
+      judge ? judge->Fit(context.scene.model, {}, kTagReach) : std::vector<double>();
+  if (as_read >= kFew && (!judge || Mean(fits_as_read) >= kFittingScore)) return;
+  const Reading* best = nullptr;
+  double best_fit = 0;
+  for (const Reading& reading : readings) {
+    if (ShareThatSees(context, photographs, reading.model) < kMost) continue;
+    // Other sizes about the same origin look alike: only the pictures tell them apart.
+    if (!judge) continue;
+    const std::vector<double> fits =
+        judge->Fit(ReadOtherwise(context.scene.model, reading.model), {}, kTagReach);
+    if (Mean(fits) <= best_fit || !PictureJudge::IsClearlyBetter(fits, fits_as_read)) continue;
+    best = &reading;
+    best_fit = Mean(fits);
+  }
+  const std::string file = context.scene.model_file.string();
+  if (best) {
+    context.Add(Advice::Severity::kScene,
+                file,
+                best->message + ": so the pictures' edges lie on its own, as the cameras see it",
+                best->remedy);
+  } else if (as_read < kFew) {
+    context.Add(Advice::Severity::kScene,
+                file,
+                std::to_string(std::lround((1 - as_read) * 100)) +
+                    " % of the cameras stand inside the model or under it, or hardly see it",
+                "cameras and model need the same origin, axes and unit: those of a "
+                "reconstruction by itself, without control points, have none of them");
+  }
+}
+
+}  // namespace groundglass
