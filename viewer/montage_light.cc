@@ -4,10 +4,10 @@
 
 #include "scene/check_option.h"
 #include "scene/srgb.h"
+#include "scene/weighted_quantile.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace groundglass {
 namespace {
@@ -23,26 +23,13 @@ struct Ratio {
   double weight = 0;
 };
 
-// The value below which this share of the weight lies.
-double WeightedQuantile(std::vector<std::pair<double, double>> values_and_weights, double share) {
-  std::sort(values_and_weights.begin(), values_and_weights.end());
-  double total = 0;
-  for (const auto& [value, weight] : values_and_weights) total += weight;
-  double sum = 0;
-  for (const auto& [value, weight] : values_and_weights) {
-    sum += weight;
-    if (sum >= share * total) return value;
-  }
-  return values_and_weights.back().first;
-}
-
 // The median of each channel.
 Eigen::Vector3d MedianRatio(const std::vector<Ratio>& ratios) {
   Eigen::Vector3d median;
   for (int c = 0; c < 3; ++c) {
-    std::vector<std::pair<double, double>> values;
-    for (const Ratio& ratio : ratios) values.emplace_back(ratio.value[c], ratio.weight);
-    median[c] = WeightedQuantile(std::move(values), 0.5);
+    std::vector<WeightedValue<double>> values;
+    for (const Ratio& ratio : ratios) values.push_back({ratio.value[c], ratio.weight});
+    median[c] = WeightedMedian(values, 1.0);
   }
   return median;
 }
@@ -106,12 +93,11 @@ std::vector<int> FindMaterials(const std::vector<FaceSighting>& faces, double sa
 
 // What light faces reflect in `light`, in which nothing is known to be white yet.
 double BrightLevel(const std::vector<Ratio>& ratios, const MontageLight& light, double share) {
-  std::vector<std::pair<double, double>> levels;
+  std::vector<WeightedValue<double>> levels;
   for (const Ratio& ratio : ratios) {
-    levels.emplace_back(LumaOf(ratio.value) / LumaOf(light.On(ratio.normal_in_world)),
-                        ratio.weight);
+    levels.push_back({LumaOf(ratio.value) / LumaOf(light.On(ratio.normal_in_world)), ratio.weight});
   }
-  return WeightedQuantile(std::move(levels), share);
+  return WeightedQuantile(levels, share, 1.0);
 }
 
 // average and direction of MontageLight, as (average, direction), from ratios that the gain has

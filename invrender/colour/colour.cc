@@ -2,8 +2,8 @@
 // Part of Groundglass.
 #include "invrender/colour/colour.h"
 
-#include "invrender/colour/weighted_median.h"
 #include "scene/quantile.h"
+#include "scene/weighted_quantile.h"
 
 #include <tbb/parallel_for.h>
 
@@ -274,7 +274,7 @@ std::vector<std::vector<float>> FindFaceResiduals(const ChartBlocks& grid,
                                                   const ColourOptions& options,
                                                   const ColourModel& colour) {
   std::vector<std::vector<float>> residuals(grid.photos.size());
-  std::vector<std::pair<float, float>> value_and_weight;
+  std::vector<WeightedValue<float>> values;
   std::vector<size_t> usable;
   const int step = StepThrough(grid, options.enough_for_light);
   for (int block = 0; block < grid.NumBlocks(); block += step) {
@@ -283,15 +283,15 @@ std::vector<std::vector<float>> FindFaceResiduals(const ChartBlocks& grid,
       return colour.Corrected(grid.photos[k], chart, static_cast<int>(k), views[k])[channel];
     };
     usable.clear();
-    value_and_weight.clear();
+    values.clear();
     for (size_t k = 0; k < grid.photos.size(); ++k) {
       if (!views[k].is_usable) continue;
       usable.push_back(k);
       const double weight = EvennessWeight(colour.photos[grid.photos[k]], options);
-      value_and_weight.emplace_back(value(k), static_cast<float>(weight));
+      values.push_back({value(k), static_cast<float>(weight)});
     }
     if (usable.size() < 2) continue;
-    const float reference = WeightedMedian(value_and_weight);
+    const float reference = WeightedMedian(values, 0.0f);
     for (const size_t k : usable) residuals[k].push_back(value(k) - reference);
   }
   return residuals;

@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #include "register/edges/edge_residuals.h"
 
-#include "register/edges/weighted_median.h"
+#include "scene/weighted_quantile.h"
 
 #include <algorithm>
 #include <tuple>
@@ -28,7 +28,7 @@ std::vector<SampleResidual> ResidualsOf(std::span<const AlignedSample> samples,
 
 std::optional<ResidualSpread> SpreadOf(std::span<const SampleResidual> residuals) {
   if (residuals.empty()) return std::nullopt;
-  std::vector<WeightedValue> values;
+  std::vector<WeightedValue<double>> values;
   values.reserve(residuals.size());
   for (const SampleResidual& residual : residuals) {
     values.push_back({residual.residual_px, residual.precision});

@@ -6,15 +6,15 @@
 
 namespace groundglass {
 
-ResidualSpread MeasureSpread(std::vector<WeightedValue> residuals) {
+ResidualSpread MeasureSpread(std::vector<WeightedValue<double>> residuals) {
   double weights = 0;
   double squares = 0;
-  for (WeightedValue& residual : residuals) {
+  for (WeightedValue<double>& residual : residuals) {
     weights += residual.weight;
     squares += residual.weight * residual.value * residual.value;
     residual.value = std::abs(residual.value);
   }
-  return {std::sqrt(squares / weights), 1.4826 * WeightedMedian(std::move(residuals), 0)};
+  return {std::sqrt(squares / weights), 1.4826 * WeightedMedian(residuals, 0.0)};
 }
 
 }  // namespace groundglass

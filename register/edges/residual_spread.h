@@ -2,7 +2,7 @@
 // Part of Groundglass.
 #pragma once
 
-#include "register/edges/weighted_median.h"
+#include "scene/weighted_quantile.h"
 
 #include <vector>
 
@@ -16,6 +16,6 @@ struct ResidualSpread {
   double robust_sigma_px = 0;
 };
 // value: a residual, px, of either sign. There must be one of weight above 0.
-ResidualSpread MeasureSpread(std::vector<WeightedValue> residuals);
+ResidualSpread MeasureSpread(std::vector<WeightedValue<double>> residuals);
 
 }  // namespace groundglass

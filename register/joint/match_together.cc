@@ -2,10 +2,10 @@
 // Part of Groundglass.
 #include "register/joint/match_together.h"
 
-#include "register/edges/weighted_median.h"
 #include "register/joint/image_edge_error.h"
 #include "register/refine/systematic_error.h"
 #include "scene/quantile.h"
+#include "scene/weighted_quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ std::vector<double> MatchPhotograph(size_t p,
   const AlignedPhotograph& photograph = state.photographs[p];
   MovingPhotograph& moving = state.moving[p];
   const ParameterProjection projection = state.ProjectionOf(moving);
-  std::vector<WeightedValue> residuals;
+  std::vector<WeightedValue<double>> residuals;
   std::vector<double> run_residuals_px;
   moving.num_matched = 0;
   std::vector<double> own_sizes;
@@ -65,7 +65,7 @@ std::vector<double> MatchPhotograph(size_t p,
     ++state.edges[run.edge].num_photographs;
     state.runs.push_back(std::move(run));
   }
-  moving.noise_px = std::clamp(1.4826 * WeightedMedian(std::move(residuals), 1),
+  moving.noise_px = std::clamp(1.4826 * WeightedMedian(residuals, 1.0),
                                options.min_noise_px,
                                options.matching.final_range_px / 2);
   return own_sizes;

@@ -23,7 +23,7 @@ TEST(ResidualSpread, IsNotClamped) {
 }
 
 TEST(ResidualSpread, OneFarResidualMovesTheRootMeanSquareAlone) {
-  std::vector<WeightedValue> residuals(99, {0.2, 1});
+  std::vector<WeightedValue<double>> residuals(99, {0.2, 1});
   residuals.push_back({20, 1});
   const ResidualSpread spread = MeasureSpread(residuals);
   EXPECT_NEAR(spread.rms_px, 2.01, 0.01);
