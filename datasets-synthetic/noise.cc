@@ -24,13 +24,6 @@ double LinesIntegral(double x, double period, double line) {
 
 }  // namespace
 
-uint64_t HashOf(uint64_t value) {
-  value += 0x9e3779b97f4a7c15u;
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9u;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111ebu;
-  return value ^ (value >> 31);
-}
-
 uint64_t HashOf(uint64_t seed, uint64_t a, uint64_t b, uint64_t c) {
   return HashOf(seed ^ (a * 0x9e3779b97f4a7c15u + HashOf(b * 0xd6e8feb86659fd93u + c)));
 }

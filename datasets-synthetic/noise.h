@@ -2,6 +2,8 @@
 // Part of Groundglass.
 #pragma once
 
+#include "scene/hash.h"
+
 #include <cstdint>
 #include <string_view>
 
@@ -10,8 +12,7 @@ namespace groundglass {
 // Counter-based randomness: the value at a place depends on the seed and the place alone, so that
 // pictures come out the same whatever the order, and the number of threads, they are made in.
 
-// A well mixed 64-bit hash (the finaliser of SplitMix64; Steele, Lea and Flood 2014).
-uint64_t HashOf(uint64_t value);
+// Of a seed and a place (HashOf in scene/hash.h).
 uint64_t HashOf(uint64_t seed, uint64_t a, uint64_t b = 0, uint64_t c = 0);
 // A seed of its own for each purpose ("grain", "slide") and each thing.
 uint64_t SeedFor(uint64_t seed, std::string_view purpose, uint64_t index = 0);

@@ -3,6 +3,7 @@
 #include "viewer/photo_grain.h"
 
 #include "scene/check_option.h"
+#include "scene/hash.h"
 #include "scene/srgb.h"
 
 #include <opencv2/imgproc.hpp>
@@ -74,14 +75,6 @@ void FillTones(const std::array<bool, PhotoGrain::kTones>& is_measured, PhotoGra
     }
     if (nearest >= 0) grain.sigma[tone] = grain.sigma[nearest];
   }
-}
-
-// Well mixed bits of a place (the finaliser of SplitMix64; Steele, Lea and Flood 2014).
-uint64_t Mixed(uint64_t value) {
-  value += 0x9e3779b97f4a7c15;
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111eb;
-  return value ^ (value >> 31);
 }
 
 }  // namespace
@@ -158,7 +151,7 @@ ImageF LayGrain(const PhotoGrain& grain, int width, int height, uint64_t seed) {
   }
   for (int y0 = -step; y0 < height; y0 += step) {
     for (int x0 = -step; x0 < width; x0 += step) {
-      const uint64_t chance = Mixed(Mixed(Mixed(seed) + x0) + y0);
+      const uint64_t chance = HashOf(HashOf(HashOf(seed) + x0) + y0);
       const ImageF& square = grain.squares[chance % grain.squares.size()];
       const bool is_turned = (chance >> 40) % 2 == 1;
       const bool is_mirrored = (chance >> 41) % 2 == 1;

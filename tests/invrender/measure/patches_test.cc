@@ -6,6 +6,7 @@
 #include "invrender/bake.h"
 #include "invrender/compose/grain.h"
 #include "invrender/measure/sharpness.h"
+#include "scene/hash.h"
 #include "scene/srgb.h"
 #include "tests/invrender/painted_scene.h"
 #include "tests/support/temporary_folder.h"
@@ -54,11 +55,8 @@ double NoiseAt(uint64_t seed, uint64_t x, uint64_t y) {
   uint64_t state = (seed * 8192 + y) * 8192 + x;
   double sum = 0;
   for (int i = 0; i < 4; ++i) {
+    sum += static_cast<double>(HashOf(state) >> 11) * 0x1.0p-53 - 0.5;
     state += 0x9e3779b97f4a7c15;
-    uint64_t z = state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    sum += static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53 - 0.5;
   }
   return sum * std::sqrt(3.0);
 }
