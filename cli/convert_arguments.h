@@ -6,11 +6,13 @@
 #include "cli/model_arguments.h"
 #include "scene/formats/convert.h"
 #include "scene/length_unit.h"
+#include "scene/text.h"
 
 #include <CLI/CLI.hpp>
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace groundglass {
 
@@ -24,6 +26,11 @@ struct ConvertArguments {
   std::string format;  // that cameras are written in; empty: view files, or COLMAP's text
   double lookat_distance = 100;
 };
+
+// Whether a file's name ends so, in capitals too; ending: in small letters.
+inline bool EndsIn(const std::string& file, std::string_view ending) {
+  return LowerCase(file).ends_with(ending);
+}
 
 // What `exchange` does of it. `--to`, with the programs that it knows:
 void AddCameraFormatOption(CLI::App* command, std::string& format);

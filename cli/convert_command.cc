@@ -9,21 +9,22 @@
 #include "scene/formats/colmap_io.h"
 #include "scene/formats/convert.h"
 #include "scene/formats/input_folders.h"
-#include "scene/text.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <string_view>
 
 namespace groundglass {
 namespace {
 
 bool IsModelFile(const std::string& file) {
-  const std::string lower = LowerCase(file);
-  for (const char* ending : {".osu", ".obj", ".glb", ".city.json"}) {
-    if (lower.ends_with(ending)) return true;
-  }
-  return false;
+  constexpr std::string_view kEndings[] = {".osu", ".obj", ".glb", ".city.json"};
+  return std::any_of(std::begin(kEndings), std::end(kEndings), [&](std::string_view ending) {
+    return EndsIn(file, ending);
+  });
 }
 
 // Whoever names a model's file wants a model, and a folder is none.

@@ -8,17 +8,11 @@
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/osu_io.h"
 #include "scene/formats/textured_model_io.h"
-#include "scene/text.h"
 
-#include <string_view>
 #include <utility>
 
 namespace groundglass {
 namespace {
-
-bool EndsIn(const std::string& file, std::string_view ending) {
-  return LowerCase(file).ends_with(ending);
-}
 
 // A textured model for programs of cities.
 ConvertResult ConvertToCityJson(const ConvertArguments& arguments) {

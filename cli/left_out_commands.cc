@@ -7,7 +7,6 @@
 #include "cli/elevation_arguments.h"
 #include "cli/left_out.h"
 #include "cli/montage_arguments.h"
-#include "scene/text.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -19,22 +18,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool EndsIn(const fs::path& file, std::string_view ending) {
-  return LowerCase(file.string()).ends_with(ending);
-}
-
 // Whether `exchange` would read it: an output folder, a folder of fSpy's projects, or a file that
 // is no model of the kinds that `scene` reads.
 bool IsForExchange(const fs::path& input) {
   if (fs::is_directory(input)) {
     return fs::exists(input / "registration.json") ||
            std::any_of(fs::directory_iterator(input), {}, [](const fs::directory_entry& entry) {
-             return EndsIn(entry.path(), ".fspy");
+             return EndsIn(entry.path().string(), ".fspy");
            });
   }
   constexpr std::string_view kForExchange[] = {".fspy", ".gml", ".json", ".mlp", ".xml"};
   return std::any_of(std::begin(kForExchange), std::end(kForExchange), [&](std::string_view end) {
-    return EndsIn(input, end);
+    return EndsIn(input.string(), end);
   });
 }
 
