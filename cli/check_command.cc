@@ -13,6 +13,7 @@
 #include "scene/formats/input_folders.h"
 #include "scene/formats/metadata_lens.h"
 #include "scene/formats/scene_folder.h"
+#include "scene/formats/untagged.h"
 #include "scene/formats/view_template.h"
 #include "scene/visibility.h"
 #include "viewer/overlay.h"
@@ -67,7 +68,7 @@ std::vector<std::string> DrawMeasuredTags(const Scene& scene, const CheckArgumen
 
 // A template for each photograph that has no tag, beside the tags that are there.
 int WriteTemplates(const Scene& scene, const CheckArguments& arguments) {
-  if (fs::exists(scene.folder / "tags.csv")) {
+  if (HasTagTable(scene.folder)) {
     throw Error(scene.folder / "tags.csv",
                 "this scene has its tags in a table; add a row there for each photograph without "
                 "one (image,x,y,z,i,j,k,a,v)");

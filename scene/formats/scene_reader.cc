@@ -10,6 +10,7 @@
 #include "scene/formats/same_picture.h"
 #include "scene/formats/scene_folder.h"
 #include "scene/formats/text_encoding.h"
+#include "scene/formats/untagged.h"
 #include "scene/formats/view_io.h"
 #include "scene/shell_word.h"
 
@@ -226,9 +227,7 @@ void SceneReader::TellUntagged(const std::string& name,
              ", which has one: take it out, or put the picture here that was meant");
     return;
   }
-  const std::string expected =
-      tags_place_.empty() ? "views/" + name + ".view" : tags_place_ + " for " + name;
-  Warn(image, "photograph without a tag; expected " + expected);
+  Warn(image, DescribeUntagged(name, folder_, options_.views));
 }
 
 void SceneReader::Match(const FilesByStem& images) {

@@ -127,7 +127,6 @@ class SceneReader {
   std::vector<Lens> lenses_;  // of calibration/
   NamesByNote taken_;
   FilesByStem known_names_;             // every photograph that has a tag, readable or not
-  std::string tags_place_;              // where a tag is expected, if not in views/
   std::filesystem::path cameras_file_;  // the COLMAP model that gave the tags, if one did
 };
 

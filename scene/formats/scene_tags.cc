@@ -47,7 +47,6 @@ void SceneReader::ReadTags(const FilesByStem& images) {
     }
   }
   const fs::path views = options_.views ? FindViews(*options_.views) : folder_ / "views";
-  if (options_.views) tags_place_ = "a .view file in " + options_.views->string();
   const fs::path table = folder_ / "tags.csv";
   std::error_code error;
   const bool has_table = !options_.views && fs::is_regular_file(table, error);
@@ -87,7 +86,6 @@ void SceneReader::ReadViewFiles(const fs::path& views) {
 }
 
 void SceneReader::ReadTable(const fs::path& table, const FilesByStem& images) {
-  tags_place_ = "a row in tags.csv";
   try {
     const TagTable rows = ReadTagTable(table, result_.scene.model);
     for (const std::string& fault : rows.faults) Fault(fault);

@@ -3,6 +3,7 @@
 #include "scene/formats/select_photographs.h"
 
 #include "scene/error.h"
+#include "scene/formats/untagged.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -26,15 +27,13 @@ void RefuseUntagged(const Scene& scene, const std::string& name, const std::stri
   const auto matches = MatchPhotographs(std::vector<std::string>{name}, untagged);
   if (!matches[0]) return;
   const std::filesystem::path& image = scene.untagged_images[*matches[0]];
-  std::string remedy;
-  if (std::filesystem::exists(scene.folder / "tags.csv") &&
-      !std::filesystem::is_directory(scene.folder / "views")) {
-    remedy = "add a row for it to " + (scene.folder / "tags.csv").string();
-  } else {
-    remedy = "write views/" + image.stem().string() + ".view (groundglass check " +
-             scene.folder.string() + " --template lays one out, to be filled in)";
+  std::string how;
+  if (!HasTagTable(scene.folder)) {
+    how = " (groundglass check " + scene.folder.string() +
+          " --template lays one out, to be filled in)";
   }
-  throw Error(place + ": the photograph " + image.filename().string() + " has no tag; " + remedy);
+  throw Error(place + ": " + image.filename().string() + ": " +
+              DescribeUntagged(image.stem().string(), scene.folder) + how);
 }
 
 }  // namespace

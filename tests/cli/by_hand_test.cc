@@ -96,7 +96,7 @@ TEST(ByHand, APhotographWithoutATagIsNotCalledMissing) {
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(
       run.err,
-      HasSubstr(points + ": the photograph s2.jpg has no tag; write views/s2.view (groundglass "
+      HasSubstr(points + ": s2.jpg: photograph without a tag; expected views/s2.view (groundglass "
                          "check "));
 }
 
