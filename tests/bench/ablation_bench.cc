@@ -53,6 +53,7 @@ std::vector<Variant> MakeVariants() {
   anchored.joint.own = anchored.solutions.refine.bias;
   add("no ground level of its own").joint.ground_level_sigmas = 3e-3;
   add("own errors of edges without tails").joint.own_degrees_of_freedom = 1e6;
+  add("no part of the model elsewhere").displaced.most_trials = 0;
   return variants;
 }
 
