@@ -242,6 +242,7 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
   alignment.is_clear = is_clear;
   const auto tie_picture =
       std::make_shared<const TiePicture>(picture.grey8, picture.ignore, options.ties.num_levels);
+  const std::vector<Eigen::Vector3d> edge_moves_in_world = edge_model.MovesInWorld();
   const auto align = [&](const TagReading& of, const Solution& solution, const Rival& elsewhere) {
     return Align(of,
                  solution,
@@ -249,13 +250,12 @@ PhotographAlignment AlignPhotograph(const PhotographInput& photograph,
                  written,
                  tie_picture,
                  evidence,
-                 edge_model.moves_in_world,
+                 edge_moves_in_world,
                  size,
                  options);
   };
   alignment.aligned = align(reading, best, rival);
-  alignment.conflict =
-      FindConflictOf(alignment.aligned, edge_model.moves_in_world, edge_model, options);
+  alignment.conflict = FindConflictOf(alignment.aligned, edge_moves_in_world, edge_model, options);
   if (registration.verdict == Verdict::kReview && rival.solution != nullptr) {
     const double best_as_rival =
         best.TotalScore() + reading.log_probability - rival.reading->log_probability;

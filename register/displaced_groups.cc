@@ -70,33 +70,13 @@ std::vector<Suspicion> FindSuspicions(const std::vector<PhotographAlignment>& al
   return suspicions;
 }
 
-// Where all of the model's edges are taken to lie, as two forms of one thing.
-struct EdgePlaces {
-  std::vector<Eigen::Vector2d> group_offsets;
-  std::vector<Eigen::Vector3d> moves_in_world;
-};
-
-EdgePlaces PlacesIn(const EdgeModel& edge_model) {
-  return {edge_model.group_offsets, edge_model.moves_in_world};
-}
-
-void PutBack(const EdgePlaces& places, EdgeModel& edge_model) {
-  edge_model.group_offsets = places.group_offsets;
-  edge_model.moves_in_world = places.moves_in_world;
-}
-
 // edge_model with a set of groups moved further.
 void MoveSet(int set, double offset_units, EdgeModel& edge_model) {
   const EdgeGroups& groups = edge_model.groups;
   const EdgeGroupSet& moved = groups.sets[set];
   edge_model.group_offsets.resize(groups.num_numbers.size(), Eigen::Vector2d::Zero());
-  edge_model.moves_in_world.resize(groups.of_edge.size(), Eigen::Vector3d::Zero());
   for (size_t i = 0; i < moved.groups.size(); ++i) {
     edge_model.group_offsets[moved.groups[i]][moved.number] += offset_units * moved.factors[i];
-  }
-  const auto moves = MovesOfSet(moved, groups);
-  for (size_t edge = 0; edge < moves.size(); ++edge) {
-    if (moves[edge]) edge_model.moves_in_world[edge] += offset_units * *moves[edge];
   }
 }
 
@@ -239,22 +219,22 @@ std::vector<DisplacedGroup> FindDisplacedGroups(
     if (suspicions.empty()) break;
     const Suspicion& suspicion = suspicions.front();
     const double offset_units = suspicion.offset_sigmas * edge_model.sigma;
-    const EdgePlaces before = PlacesIn(edge_model);
+    const std::vector<Eigen::Vector2d> before = edge_model.group_offsets;
     MoveSet(suspicion.set, offset_units, edge_model);
     std::vector<PhotographAlignment> moved = align_all();
     DisplacedGroup candidate =
         Compare({suspicion.set, offset_units, 0, 0}, alignments, moved, options);
     if (!IsEnough(candidate, options)) {
       tried.insert(suspicion.set);
-      PutBack(before, edge_model);
+      edge_model.group_offsets = before;
       continue;
     }
     // Two walls are too far apart or too near: which of them is in its place?
     if (const std::optional<Counterpart> counterpart =
             FindCounterpart(suspicion.set, edge_model.groups, moved)) {
-      const EdgePlaces one_way = PlacesIn(edge_model);
+      const std::vector<Eigen::Vector2d> one_way = edge_model.group_offsets;
       const double other_offset_units = counterpart->is_turned ? offset_units : -offset_units;
-      PutBack(before, edge_model);
+      edge_model.group_offsets = before;
       MoveSet(counterpart->set, other_offset_units, edge_model);
       std::vector<PhotographAlignment> other_way = align_all();
       const DisplacedGroup other =
@@ -264,7 +244,7 @@ std::vector<DisplacedGroup> FindDisplacedGroups(
         candidate = other;
         std::swap(moved, other_way);
       } else {
-        PutBack(one_way, edge_model);
+        edge_model.group_offsets = one_way;
       }
       CoverOtherWay(
           other_way, 1 / (1 + std::exp(std::abs(lead_nats) / options.doubtful_nats)), moved);
@@ -276,7 +256,7 @@ std::vector<DisplacedGroup> FindDisplacedGroups(
     AddTo(displaced, candidate);
     alignments = std::move(moved);
   }
-  if (displaced.empty()) PutBack({}, edge_model);
+  if (displaced.empty()) edge_model.group_offsets.clear();
   for (PhotographAlignment& alignment : alignments) {
     if (alignment.aligned.doubt.isZero()) continue;
     if (alignment.second_best) alignment.second_best->doubt = alignment.aligned.doubt;

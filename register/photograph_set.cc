@@ -47,7 +47,7 @@ double NatsFor(const AlignedPhotograph& photograph, const AlignmentScore& score)
 double NatsAlone(const AlignedPhotograph& photograph,
                  const EdgeModel& edge_model,
                  const ScoreOptions& options) {
-  return NatsFor(photograph, ScoreOf(photograph, edge_model.moves_in_world, options));
+  return NatsFor(photograph, ScoreOf(photograph, edge_model.MovesInWorld(), options));
 }
 
 }  // namespace groundglass

@@ -184,7 +184,7 @@ std::vector<EdgeDisplacement> RefineSet(const EdgeModel& edge_model,
                                         const std::vector<SeenTagCorner>& tag_corners,
                                         std::vector<MovedTag>* moved_tags) {
   PhotographSet set;
-  set.edge_moves_in_world = edge_model.moves_in_world;
+  set.edge_moves_in_world = edge_model.MovesInWorld();
   std::vector<MovedTag> moved;
   for (PhotographAlignment& alignment : alignments) {
     if (alignment.registration.verdict != Verdict::kAccepted) continue;

@@ -50,6 +50,25 @@ EdgeModel::EdgeModel(const PolygonModel& model_)
   looseness = sigma > usual ? std::sqrt(sigma * sigma - usual * usual) : 0;
 }
 
+Eigen::Vector3d EdgeModel::MoveOf(int edge) const {
+  Eigen::Vector3d move = Eigen::Vector3d::Zero();
+  if (group_offsets.empty()) return move;
+  for (const EdgeGroupPart& part : groups.of_edge[edge]) {
+    move += part.directions * group_offsets[part.group].head(part.directions.cols());
+  }
+  return move;
+}
+
+std::vector<Eigen::Vector3d> EdgeModel::MovesInWorld() const {
+  std::vector<Eigen::Vector3d> moves;
+  if (group_offsets.empty()) return moves;
+  moves.reserve(edges.size());
+  for (size_t edge = 0; edge < edges.size(); ++edge) {
+    moves.push_back(MoveOf(static_cast<int>(edge)));
+  }
+  return moves;
+}
+
 std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
                                            const Camera& camera,
                                            double margin_px,
@@ -70,8 +89,7 @@ std::vector<EdgeSample> SampleVisibleEdges(const EdgeModel& edge_model,
     const Eigen::Vector3d direction = (span.end_in_world - span.start_in_world).normalized();
     const ModelEdge& edge = edge_model.edges[span.edge];
     const double edge_length = (edge.end_in_world - edge.start_in_world).norm();
-    Eigen::Vector3d move = Eigen::Vector3d::Zero();
-    if (!edge_model.moves_in_world.empty()) move = edge_model.moves_in_world[span.edge];
+    const Eigen::Vector3d move = edge_model.MoveOf(span.edge);
     for (int i = 0; i < count; ++i) {
       const double s = (i + 0.5) / count;
       const double t =

@@ -26,17 +26,18 @@ struct EdgeModel {
   std::vector<EdgeTolerance> tolerances;
   EdgeGroups groups;
   // How far each group's numbers are taken to lie from where the model draws them, model's unit;
-  // empty: nowhere else.
+  // empty: nowhere else. An edge is seen where the drawn one would be.
   std::vector<Eigen::Vector2d> group_offsets;
-  // How far each edge is taken to lie from where the model draws it; empty: nowhere else. It is
-  // seen where the drawn one would be.
-  std::vector<Eigen::Vector3d> moves_in_world;
   Visibility visibility;
   // How far its edges may lie off, one standard deviation, model's unit (ModelSigma); and how much
   // of that is more than a model of its size has by default, and so more than the widths in pixels
   // of the search, the matching and the score allow for.
   double sigma = 0;
   double looseness = 0;
+
+  // How far its groups take an edge from where the model draws it; and of all edges, empty: none.
+  Eigen::Vector3d MoveOf(int edge) const;
+  std::vector<Eigen::Vector3d> MovesInWorld() const;
 };
 
 // A point on a visible model edge, where the photograph is asked for an edge.

@@ -59,7 +59,7 @@ TEST_F(FindDisplacedGroupsTest, TakesASetToLieWherePhotographsFitMuchBetter) {
   int num_trials = 0;
   const auto align_all = [&] {
     ++num_trials;
-    EXPECT_FALSE(edge_model.moves_in_world.empty());
+    EXPECT_FALSE(edge_model.group_offsets.empty());
     return std::vector<PhotographAlignment>(4, [] {
       PhotographAlignment better;
       better.registration.verdict = Verdict::kReview;
@@ -79,7 +79,7 @@ TEST_F(FindDisplacedGroupsTest, TakesASetToLieWherePhotographsFitMuchBetter) {
     const Eigen::Vector3d expected = moves[edge]
                                          ? Eigen::Vector3d(displaced[0].offset_units * *moves[edge])
                                          : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    EXPECT_LT((edge_model.moves_in_world[edge] - expected).norm(), 1e-9) << edge;
+    EXPECT_LT((edge_model.MoveOf(static_cast<int>(edge)) - expected).norm(), 1e-9) << edge;
   }
   EXPECT_THAT(DescribeDisplacedGroup(displaced[0], edge_model), HasSubstr("0.79 ft higher"));
 }
@@ -88,7 +88,6 @@ TEST_F(FindDisplacedGroupsTest, LeavesTheModelAsItWasWhereTheTrialSaysNoMore) {
   std::vector<PhotographAlignment> alignments = Alignments(4, level_set, 8, 30, 100);
   const auto align_all = [&] { return Alignments(4, level_set, 8, 30, 101); };
   EXPECT_TRUE(FindDisplacedGroups({}, align_all, edge_model, alignments).empty());
-  EXPECT_TRUE(edge_model.moves_in_world.empty());
   EXPECT_TRUE(edge_model.group_offsets.empty());
   EXPECT_EQ(alignments[0].total_nats, 100);
 }
@@ -134,17 +133,17 @@ TEST_F(FindDisplacedGroupsTest, ASetThatIsMovedTwiceIsToldOnce) {
 
 TEST_F(FindDisplacedGroupsTest, ATrialInVainLeavesEdgesWhereTheyWereToTheLastBit) {
   std::vector<PhotographAlignment> alignments = Alignments(4, level_set, 8, 30, 100);
-  std::vector<Eigen::Vector3d> after_first;
+  std::vector<Eigen::Vector2d> after_first;
   int num_trials = 0;
   const auto align_all = [&] {
     ++num_trials;
-    if (num_trials == 1) after_first = edge_model.moves_in_world;
+    if (num_trials == 1) after_first = edge_model.group_offsets;
     // The second one is in vain.
     return Alignments(4, level_set, 3.5, 20, 150);
   };
   ASSERT_EQ(FindDisplacedGroups({}, align_all, edge_model, alignments).size(), 1u);
   EXPECT_EQ(num_trials, 2);
-  EXPECT_EQ(edge_model.moves_in_world, after_first);
+  EXPECT_EQ(edge_model.group_offsets, after_first);
 }
 
 struct TwoWaysTest : FindDisplacedGroupsTest {
@@ -228,7 +227,7 @@ TEST_F(TwoWaysTest, TheWallThatPhotographsSayMoreForIsTheMovedOne) {
   EXPECT_EQ(alignments[0].total_nats, 138);
   const auto moves = MovesOfSet(edge_model.groups.sets[displaced[0].set], edge_model.groups);
   for (size_t edge = 0; edge < moves.size(); ++edge) {
-    EXPECT_EQ(edge_model.moves_in_world[edge].isZero(), !moves[edge]) << edge;
+    EXPECT_EQ(edge_model.MoveOf(static_cast<int>(edge)).isZero(), !moves[edge]) << edge;
   }
 }
 
