@@ -202,5 +202,39 @@ TEST(ApplyJudgement, LowersAndNeverRaises) {
   EXPECT_THAT(registration.reasons, ElementsAre("first", "second", "third"));
 }
 
+TEST(WithOverclaim, WidensWhatATagIsHeldToAndNothingElse) {
+  const VerdictOptions usual;
+  const VerdictOptions wide = WithOverclaim(usual, 2.4);
+  EXPECT_DOUBLE_EQ(wide.max_prior_sigmas, 8.4);  // 3.5 sigmas
+  EXPECT_DOUBLE_EQ(wide.max_prior_chi_squared, 31.3 * 5.76);
+  EXPECT_EQ(wide.min_margin_per_observation, usual.min_margin_per_observation);
+  EXPECT_EQ(wide.min_margin_nats, usual.min_margin_nats);
+  EXPECT_EQ(wide.min_nats_per_observation, usual.min_nats_per_observation);
+  EXPECT_EQ(wide.min_nats, usual.min_nats);
+  EXPECT_EQ(wide.max_vertex_sigma_px, usual.max_vertex_sigma_px);
+  EXPECT_EQ(wide.min_expected_ties, usual.min_expected_ties);
+  EXPECT_EQ(wide.min_share_of_expected_ties, usual.min_share_of_expected_ties);
+  EXPECT_EQ(wide.max_control_point_sigmas, usual.max_control_point_sigmas);
+  EXPECT_EQ(wide.undetermined_share, usual.undetermined_share);
+}
+
+TEST(WithOverclaim, AChangeIsJudgedAsIfItsTagHadClaimedSoMuchLess) {
+  const CameraPrior prior = IndependentPrior();
+  const auto verdict_of = [&](const CameraParameters& whitened, double overclaim) {
+    return JudgeInnovation(
+               prior.ParametersAt(whitened), prior, LengthUnit::kFoot, WithOverclaim({}, overclaim))
+        .verdict;
+  };
+  // One of them, 8.4 sigmas at the most; and all ten, whose squares are 180.3 at the most.
+  for (const auto& [within, beyond] :
+       {std::pair<CameraParameters, CameraParameters>{8.3 * CameraParameters::Unit(kYaw),
+                                                      8.5 * CameraParameters::Unit(kYaw)},
+        {CameraParameters::Constant(4.2), CameraParameters::Constant(4.3)}}) {
+    EXPECT_EQ(verdict_of(within, 1), Verdict::kReview);
+    EXPECT_EQ(verdict_of(within, 2.4), Verdict::kAccepted);
+    EXPECT_EQ(verdict_of(beyond, 2.4), Verdict::kReview);
+  }
+}
+
 }  // namespace
 }  // namespace groundglass
