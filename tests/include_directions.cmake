@@ -75,13 +75,14 @@ endforeach()
 
 # Third parties by the first part of their path, and the files (regular expression on the path in
 # the tree) that may include them.
-set(third_parties Eigen opencv2 OpenImageIO embree3 ceres apriltag GL EGL CLI
+set(third_parties Eigen opencv2 OpenImageIO embree3 ceres glog apriltag GL EGL CLI
     fmt kainjow nlohmann openssl tbb stb sys SDL2 imgui GeographicLib polyclipping)
 set(owners_Eigen "\\.(h|cc)$")
 set(owners_opencv2 "^(scene|calibrate|register|session|invrender|viewer|gui|report|datasets-synthetic|evaluate)/.*\\.cc$")
 set(owners_OpenImageIO "^(scene/formats/(image_(io|write|kind)|open_image|ignore_mask|photograph_metadata)|invrender/.*)\\.cc$")
 set(owners_embree3 "^scene/visibility\\.cc$")
 set(owners_ceres "^(calibrate|register|session|invrender)/.*\\.cc$")
+set(owners_glog "^cli/main\\.cc$")
 set(owners_SDL2 "^gui/.*\\.cc$")
 set(owners_imgui "^gui/.*\\.cc$")
 set(owners_polyclipping "^scene/cut_faces\\.cc$")

@@ -88,8 +88,8 @@ void CheckControlPoints(const std::filesystem::path& file,
     if ((point.point_in_world - bounds.Center()).norm() > kModels * bounds.Diagonal()) {
       const Eigen::Vector3d in_site = SiteFromWorld(point.point_in_world);
       throw Error(file,
-                  of + " is at " + FormatNumber(in_site.x()) + " " + FormatNumber(in_site.y()) +
-                      " " + FormatNumber(in_site.z()) +
+                  of + " is at " + FormatNumber(in_site.x()) + " " +
+                      FormatNumber(in_site.y() + 0.0) + " " + FormatNumber(in_site.z()) +
                       ", far from the model; expected a place of it, in its own numbers");
     }
     const auto photograph = std::find_if(

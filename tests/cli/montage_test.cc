@@ -88,7 +88,7 @@ TEST_F(MontageOfBrick, NothingThatIsReadIsWrittenOver) {
                                                  "-o",
                                                  photograph});
   EXPECT_EQ(over_photograph.status, 1);
-  EXPECT_THAT(over_photograph.err, HasSubstr("would be written over the input itself"));
+  EXPECT_THAT(over_photograph.err, HasSubstr("among a scene's own files"));
   EXPECT_EQ(ReadSrgb8(photograph).values, photograph_.values);
 }
 

@@ -167,12 +167,15 @@ TEST(Told, WhatRegisterWouldKeepAndWhatItCannotTrust) {
   }
   EXPECT_THAT(RunProgram(words).err, Not(HasSubstr("is damaged")));
   // Nobody knows whose folder it is.
-  for (const std::string bad : {"[1", R"({"program": 5})"}) {
+  const auto expect_refused = [&](const std::string& bad) {
     WriteAll(out / "manifest.json", bad);
     const ProgramRun refused = RunProgram(words);
     EXPECT_EQ(refused.status, 1) << bad;
     EXPECT_THAT(refused.err, HasSubstr("manifest.json: is damaged or not ours"));
-  }
+  };
+  expect_refused(R"({"program": 5})");
+  fs::remove(out / "registration.json");
+  expect_refused("[1");
 }
 
 TEST(Told, InvrenderMakesEverythingAgainUnderADamagedManifest) {

@@ -14,7 +14,8 @@ namespace {
 
 // Edges in the air that two photographs found so many of the model's sigmas away.
 double SharedOffsetWhereEdgesLieOff(double sigmas) {
-  const EdgeModel edge_model(MakeHouse());
+  const PolygonModel house = MakeHouse();
+  const EdgeModel edge_model(house);
   const std::vector<AlignedPhotograph> photographs;
   const std::vector<TiePoint> ties;
   const JointOptions options;
@@ -58,7 +59,8 @@ struct MovedHouse {
     for (MovingGroup& group : state.groups) group.move.setConstant(sigmas);
   }
 
-  EdgeModel edge_model{MakeHouse()};
+  PolygonModel model = MakeHouse();
+  EdgeModel edge_model{model};
   std::vector<AlignedPhotograph> photographs;
   std::vector<TiePoint> ties;
   JointOptions options;
@@ -87,7 +89,8 @@ TEST(EstimateGroupOffset, StaysWithinTheOptionsAndWantsEnoughGroups) {
 
 // What photographs show of a displaced group may be a single edge, or none.
 TEST(JointState, ADisplacedGroupStaysThereHoweverLittleIsSeenOfIt) {
-  EdgeModel edge_model(MakeHouse());
+  const PolygonModel house = MakeHouse();
+  EdgeModel edge_model(house);
   edge_model.group_offsets.assign(edge_model.groups.num_numbers.size(), Eigen::Vector2d::Zero());
   const int edge = 0;
   const EdgeGroupPart& part = edge_model.groups.of_edge[edge].front();
