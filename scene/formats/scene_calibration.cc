@@ -8,7 +8,11 @@
 #include "scene/formats/view_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -116,6 +120,10 @@ void SceneReader::CompleteTag(const FoundTag& found, Photograph& photograph) {
   if (!taken.empty() && photograph.view_file != photograph.calibration_file) {
     taken_[NamesOf(taken) + " from calibration/"].push_back(photograph.name);
   }
+  if (std::any_of(
+          taken.begin(), taken.end(), [](const KnownKey& key) { return key.key == "k1"; })) {
+    with_measured_k1_.insert(photograph.name);
+  }
   text = WithKeys(text, taken);
   std::string why_not;
   text = WithMetadata(text, photograph, why_not);
@@ -125,6 +133,50 @@ void SceneReader::CompleteTag(const FoundTag& found, Photograph& photograph) {
     FaultOf(photograph.name, is_view_angle ? fault + ", and " + why_not : fault);
   }
   if (faults.empty()) photograph.tag = ParseView(text, found.view_file);
+}
+
+// A lens bends lines by the same in all its photographs, each of which has told it a little. Taken
+// as if each had a lens of its own, registration would believe them all.
+void SceneReader::ShareMeasuredDistortion() {
+  using LensKey = std::tuple<std::string, int, double, double>;
+  struct OneLens {
+    std::vector<ViewTag*> measured;
+    std::vector<ViewTag*> unknown;  // nothing says k1 there
+  };
+  std::map<LensKey, OneLens> lenses;
+  for (Photograph& photograph : result_.scene.photographs) {
+    ViewTag& tag = photograph.tag;
+    const bool is_measured = with_measured_k1_.count(photograph.name) > 0 && tag.sigmas.k1;
+    if (tag.k2 != 0 || (!is_measured && (tag.k1 != 0 || tag.sigmas.k1))) continue;
+    const int shape = 1000 * photograph.size.width / std::max(1, photograph.size.height);
+    const LensKey key = tag.camera.empty() ? LensKey{"", shape, tag.view_angle_deg, tag.aspect}
+                                           : LensKey{tag.camera, shape, 0, 0};
+    (is_measured ? lenses[key].measured : lenses[key].unknown).push_back(&tag);
+  }
+  for (auto& [key, lens] : lenses) {
+    std::vector<ViewTag*>& tags = lens.measured;
+    if (tags.empty()) continue;
+    double weights = 0;
+    double sum = 0;
+    for (const ViewTag* tag : tags) {
+      const double weight = 1 / (*tag->sigmas.k1 * *tag->sigmas.k1);
+      weights += weight;
+      sum += weight * tag->k1;
+    }
+    const double mean = sum / weights;
+    double chi_squared = 0;
+    for (const ViewTag* tag : tags) {
+      chi_squared += (tag->k1 - mean) * (tag->k1 - mean) / (*tag->sigmas.k1 * *tag->sigmas.k1);
+    }
+    // Where they differ by more than they say, they know less than they say.
+    const double excess =
+        tags.size() > 1 ? std::max(1.0, chi_squared / static_cast<double>(tags.size() - 1)) : 1;
+    tags.insert(tags.end(), lens.unknown.begin(), lens.unknown.end());
+    for (ViewTag* tag : tags) {
+      tag->k1 = mean;
+      tag->sigmas.k1 = std::sqrt(excess / weights);
+    }
+  }
 }
 
 void SceneReader::TellWhatWasTaken() {

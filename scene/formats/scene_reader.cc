@@ -68,6 +68,7 @@ SceneReading SceneReader::Read(bool decode_pictures) {
   ReadTags(images);
   ReadCalibration();
   Match(images);
+  ShareMeasuredDistortion();
   SortTableFaults();
   TellWhatWasTaken();
   AddMasks("masks", &Photograph::mask_file);

@@ -106,6 +106,8 @@ class SceneReader {
   void CompleteTag(const FoundTag& found, Photograph& photograph);
   std::string WithLens(std::string text, Photograph& photograph);
   std::string WithMetadata(std::string text, const Photograph& photograph, std::string& why_not);
+  // What was measured of one lens in several photographs, taken together.
+  void ShareMeasuredDistortion();
   void TellWhatWasTaken();
   void AddMasks(const char* subfolder, std::optional<std::filesystem::path> Photograph::*member);
   // The photograph that lies in images/ where a mask lies in masks/: north/0001.
@@ -126,8 +128,9 @@ class SceneReader {
   FilesByStem calibration_;   // its view files, by photograph
   std::vector<Lens> lenses_;  // of calibration/
   NamesByNote taken_;
-  FilesByStem known_names_;             // every photograph that has a tag, readable or not
-  std::filesystem::path cameras_file_;  // the COLMAP model that gave the tags, if one did
+  std::set<std::string> with_measured_k1_;  // photographs whose k1 is from calibration/
+  FilesByStem known_names_;                 // every photograph that has a tag, readable or not
+  std::filesystem::path cameras_file_;      // the COLMAP model that gave the tags, if one did
 };
 
 }  // namespace groundglass

@@ -316,6 +316,12 @@ TEST(CalibrateBoard, RefusesWhatMakesNoLens) {
   EXPECT_THAT(MessageOf([&] { CalibrateBoard(photographs, no_gap); }),
               testing::HasSubstr("board: gap must be"));
 
+  BoardOptions strict;
+  strict.max_sigma_share = 1e-6;
+  EXPECT_THAT(
+      MessageOf([&] { CalibrateBoard(photographs, Board{}, strict); }),
+      testing::HasSubstr("which is nothing known; photograph the board from several sides"));
+
   Board too_many;
   too_many.columns = too_many.rows = 30;
   EXPECT_THAT(MessageOf([&] { too_many.Check(); }), testing::HasSubstr("587"));

@@ -183,6 +183,37 @@ TEST(Mesh, AFaceWithACornerThatIsNoNumberIsLeftOut) {
   }
 }
 
+// One triangle, its primitive and its node with more to them.
+std::string TriangleGltf(const std::string& of_primitive, const std::string& of_node) {
+  return R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0)" +
+         of_node +
+         R"(}], "meshes": [{"name": "roof", "primitives": [{"attributes": {"POSITION": 0})" +
+         of_primitive +
+         R"(}]}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3,
+         "type": "VEC3", "min": [0, 0, 0], "max": [4, 3, 0]}],
+         "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
+         "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAQAAAAAAAAAAAAACAQAAAQEAAAAAA"}],
+         "skins": [{"joints": [0]}], "extensionsUsed": ["KHR_draco_mesh_compression"]})";
+}
+
+TEST(Gltf, AMeshThatComesBothWaysIsReadUnpacked) {
+  const TemporaryFolder folder;
+  const std::string packed =
+      R"(, "extensions": {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {}}})";
+  const ModelReading reading = ReadModel(folder.Write("m.gltf", TriangleGltf(packed, "")));
+  EXPECT_EQ(reading.model.faces.size(), 1u);
+  EXPECT_EQ(reading.warnings.size(), 0u);
+}
+
+TEST(Gltf, WhatASkeletonMovesIsTold) {
+  const TemporaryFolder folder;
+  for (const auto& [more, told] : {std::pair(R"(, "skin": 0)", "'roof' hangs on a skeleton"),
+                                   std::pair(R"(, "weights": [0.5])", "'roof' is morphed")}) {
+    const ModelReading reading = ReadModel(folder.Write("m.gltf", TriangleGltf("", more)));
+    EXPECT_THAT(reading.warnings, ElementsAre(HasSubstr(told)));
+  }
+}
+
 TEST(Model, NamesOfFacesComeInUtf8) {
   const TemporaryFolder folder;
   const ModelReading reading = ReadModel(folder.Write("m.obj",

@@ -359,6 +359,35 @@ TEST(SceneCalibration, ItsFolderGivesWhatTagsLack) {
   EXPECT_EQ(scene.notes.size(), 2u);
 }
 
+// Each picture's lines told the k1 of the lens that took them all.
+TEST(SceneCalibration, PhotographsOfOneLensShareWhatWasMeasuredOfIt) {
+  const SceneFolder folder;
+  const std::string tag = ReadTextFile(folder / "views/s2.view");
+  for (const char* name : {"s10", "s11", "s12"}) {
+    std::filesystem::copy(folder / "images/s2.jpg",
+                          folder / ("images/" + std::string(name) + ".jpg"),
+                          std::filesystem::copy_options::overwrite_existing);
+    folder.Write("views/" + std::string(name) + ".view", tag);
+  }
+  folder.Write("views/s12.view", tag + "\nk1 -0.2 sigma_k1 0.01\n");
+  folder.Write("calibration/s2.view", "k1 0.03 sigma_k1 0.01\n");
+  folder.Write("calibration/s10.view", "k1 0.01 sigma_k1 0.01\n");
+  folder.Write("calibration/s12.view", "k1 0.01 sigma_k1 0.01\n");
+  const Scene scene = ReadScene(folder.path());
+  const auto tag_of = [&](const std::string& name) {
+    return std::find_if(scene.photographs.begin(),
+                        scene.photographs.end(),
+                        [&](const Photograph& photograph) { return photograph.name == name; })
+        ->tag;
+  };
+  for (const char* name : {"s2", "s10", "s11"}) {
+    EXPECT_NEAR(tag_of(name).k1, 0.02, 1e-12) << name;
+    // They differ by twice what 0.0071 would allow: chi squared of 2 with one degree of freedom.
+    EXPECT_NEAR(*tag_of(name).sigmas.k1, 0.01, 1e-12) << name;
+  }
+  EXPECT_EQ(tag_of("s12").k1, -0.2) << "what the tag says itself wins";
+}
+
 TEST(SceneCalibration, AViewThatLacksKeysIsCorrectedWithThem) {
   ViewTag corrected = ParseView(kTag, "s2");
   corrected.view_angle_deg = 41;
