@@ -227,7 +227,8 @@ Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* jud
   if (!choice && photographs.size() > 3) {
     readings.clear();
     for (const Reading& one : axes) {
-      for (const Reading& other : OtherUnits(context, " " + one.option)) {
+      for (const Reading& other :
+           OtherUnits(context, one.option.starts_with("without") ? "" : " " + one.option)) {
         readings.push_back(Combined(one, other));
       }
     }

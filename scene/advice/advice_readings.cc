@@ -32,6 +32,7 @@ constexpr std::array<AxesWords, 3> kAxesWords = {{
 std::vector<Reading> OtherAxes(const AdviceContext& context) {
   std::vector<Reading> readings;
   const MeshAxes axes = AxesOf(context.scene.model_file, context.options);
+  const MeshAxes own = AxesOf(context.scene.model_file, {});
   const Eigen::Matrix3d world_from_read = WorldFromAxes(axes).inverse();
   for (const AxesWords& words : kAxesWords) {
     if (words.axes == axes) continue;
@@ -45,6 +46,12 @@ std::vector<Reading> OtherAxes(const AdviceContext& context) {
       reading.option = "--frame world";
     }
     reading.remedy = "give " + reading.option;
+    if (context.options.mesh_axes && words.axes == own) {
+      ModelOptions given;
+      given.mesh_axes = context.options.mesh_axes;
+      reading.option = "without" + AxesOptions(given);
+      reading.remedy = "leave out" + AxesOptions(given);
+    }
     if (words.axes != MeshAxes::kYUp) continue;
     // Its faces may run clockwise as well.
     Reading turned = reading;
