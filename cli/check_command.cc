@@ -164,7 +164,7 @@ void AddCheckCommand(CLI::App& app, int& exit_status) {
           "--focal-length",
           [raw = arguments.get()](double millimetres) { raw->focal_length_mm = millimetres; },
           "of the templates' lens, mm as for a 35 mm frame: fills in the view angle")
-      ->check(Above(0))
+      ->check(FromTo(1, 10000))
       ->needs(with_templates);
   AddModelOptions(command, arguments->model_arguments);
   AddCommonOptions(command, arguments->common);

@@ -80,6 +80,12 @@ class CityGmlReader {
     }
     for (const XmlElement& child : linear_ring->children) {
       if (child.name == "posList" || child.name == "pos") AppendPoints(child, ring);
+      // As GML 2 has it: x,y,z x,y,z
+      if (child.name == "coordinates") {
+        XmlElement parted = child;
+        std::replace(parted.text.begin(), parted.text.end(), ',', ' ');
+        AppendPoints(parted, ring);
+      }
     }
     if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
     return ring;

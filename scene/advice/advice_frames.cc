@@ -292,10 +292,30 @@ void AdviseOnRadians(const AdviceContext& context) {
       "write degrees: v " + FormatNumber(std::round(100 * DegreesFromRadians(v)) / 100) + " there");
 }
 
+// The frame's height / width in every tag, whichever way the pictures lie.
+bool AdviseOnInvertedAspects(const AdviceContext& context) {
+  constexpr size_t kFewest = 3;
+  const std::vector<Photograph>& photographs = context.scene.photographs;
+  const bool are_all = std::all_of(photographs.begin(), photographs.end(), [](const auto& one) {
+    return one.size.orientation < 5 && !SuitsPicture(one) &&
+           Suits(one.tag.aspect, 1 / PictureAspect(one));
+  });
+  if (photographs.size() < kFewest || !are_all) return false;
+  const double aspect = photographs.front().tag.aspect;
+  context.Add(Advice::Severity::kScene,
+              context.scene.folder.string(),
+              "a is height / width in every tag (" + FormatNumber(aspect) + " in " +
+                  photographs.front().name + "), or every picture is turned on its side",
+              "a is width / height: write " + FormatNumber(std::round(1000 / aspect) / 1000) +
+                  " there; or turn the pictures");
+  return true;
+}
+
 }  // namespace
 
 void AdviseOnFrames(const AdviceContext& context) {
   AdviseOnRadians(context);
+  if (AdviseOnInvertedAspects(context)) return;
   for (const Photograph& photograph : context.scene.photographs) {
     AdviseOnAspect(context, photograph);
   }

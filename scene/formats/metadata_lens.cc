@@ -115,7 +115,12 @@ std::optional<FocalLength> FindFocalLength(const PhotographMetadata& metadata,
                        FormatNumber(*metadata.focal_length_mm) + " mm on a sensor " +
                            FormatNumber(*options.sensor_width_mm) + " mm wide"};
   }
-  if (metadata.focal_length_35mm) {
+  // No sensor is so much larger than 36 mm x 24 mm: one of the two was filled in with another
+  // thing.
+  const bool is_contradiction =
+      metadata.focal_length_mm && metadata.focal_length_35mm &&
+      *metadata.focal_length_35mm < options.least_crop_factor * *metadata.focal_length_mm;
+  if (metadata.focal_length_35mm && !is_contradiction) {
     const double focal_mm = *metadata.focal_length_35mm;
     return FocalLength{focal_mm / kDiagonal35mm * std::hypot(frame.width_px, frame.height_px),
                        std::hypot(options.focal_length_share, kRounding / focal_mm),
@@ -166,6 +171,7 @@ std::string WhyNone(const PhotographMetadata& metadata, const MetadataLensOption
 void MetadataLensOptions::Check() const {
   CheckFromTo(focal_length_share, 1e-6, 1, "metadata lens options: focal_length_share");
   CheckAbove(sensor_table_share, 0, "metadata lens options: sensor_table_share");
+  CheckAtLeast(least_crop_factor, 0, "metadata lens options: least_crop_factor");
   CheckAtLeast(scan_scale_share, 0, "metadata lens options: scan_scale_share");
   CheckAtLeast(scan_aspect_share, 0, "metadata lens options: scan_aspect_share");
   if (sensor_width_mm) CheckFromTo(*sensor_width_mm, 1, 500, "sensor-width");

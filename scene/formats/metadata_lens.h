@@ -21,6 +21,8 @@ struct MetadataLensOptions {
   // sensor, one standard deviation as a share: they round, and some follow the makers' data sheets.
   std::filesystem::path sensor_tables = "/usr/share/lensfun";
   double sensor_table_share = 0.015;
+  // A focal length for 35 mm film that is a smaller share of the lens's own is not believed.
+  double least_crop_factor = 0.3;
   // Of what may be a scan of film: how far mount and scanner change its scale, and the shape of its
   // pixels; one standard deviation as a share.
   double scan_scale_share = 0.01;

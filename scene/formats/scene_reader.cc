@@ -240,6 +240,12 @@ void SceneReader::Match(const FilesByStem& images) {
 }
 
 void SceneReader::AddMasks(const char* subfolder, std::optional<fs::path> Photograph::*member) {
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / subfolder, failure)) {
+    if (entry.is_directory(failure) && IsImageExtension(entry.path().extension().string())) {
+      Warn(entry.path(), "is a folder; put the mask itself there");
+    }
+  }
   std::vector<std::string> names;
   std::vector<fs::path> files;
   for (const auto& [name, file] : ListImages(subfolder)) {

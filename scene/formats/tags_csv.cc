@@ -127,11 +127,10 @@ class TableReader {
       }
     }
     has_angles_ = Has("yaw") || Has("pitch");
-    // A column of heights beside x, y and z is a remark.
-    is_geodetic_ = Has("lat") || Has("lon") || (Has("height") && !Has("z"));
+    is_geodetic_ = Has("lat") || Has("lon");
     if (Has("height") && !is_geodetic_) {
       table_.warnings.push_back(
-          Error(file_, line, "column 'height' is not read beside x, y and z").what());
+          Error(file_, line, "column 'height' is not read without lat and lon").what());
     }
     const auto require = [&](std::initializer_list<const char*> required) {
       for (const char* name : required) {

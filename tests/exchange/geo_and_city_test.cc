@@ -202,6 +202,18 @@ TEST(CityGml, AShapeThatIsSetUpElsewhereStandsThere) {
   EXPECT_EQ(reading.model.points_in_world[2], Eigen::Vector3d(97, 204, 32));
 }
 
+TEST(CityGml, CoordinatesOfAnEarlierGmlAreRead) {
+  const TemporaryFolder folder;
+  const ModelReading reading =
+      ReadCity(folder,
+               "<gml:Polygon><gml:exterior><gml:LinearRing><gml:coordinates>0,0,0 4,0,0 4,3,0 0,0,0"
+               "</gml:coordinates></gml:LinearRing></gml:exterior></gml:Polygon>");
+  ASSERT_EQ(reading.model.faces.size(), 1u);
+  EXPECT_EQ(reading.model.points_in_world[2], Eigen::Vector3d(4, 3, 0));
+  EXPECT_THAT(ThrownMessage([&] { ReadCity(folder, GmlPolygon(kSquare), "EPSG:4979"); }),
+              HasSubstr("counts in degrees of latitude and longitude"));
+}
+
 TEST(CityGml, TerrainOfTrianglesIsRead) {
   const TemporaryFolder folder;
   const ModelReading reading = ReadCity(folder, GmlPolygon("0 0 0 4 0 0 4 4 1 0 0 0", "Triangle"));

@@ -78,6 +78,13 @@ TEST(MisreadTags, AnglesInRadiansAndHalfAnglesAreTold) {
   EXPECT_THAT(FormatAdvice(found[0]), HasSubstr("v is half the view angle"));
 }
 
+TEST(MisreadTags, AspectsThatAreHeightOverWidthAreToldOnce) {
+  Scene scene = ReadHall();
+  for (Photograph& photograph : scene.photographs)
+    photograph.tag.aspect = 1 / photograph.tag.aspect;
+  EXPECT_THAT(ToldOf(scene), ElementsAre(HasSubstr("a is height / width in every tag")));
+}
+
 // Their tags are made from them, and look at the model's middle.
 TEST(MisreadTags, GivenCamerasOfAnotherUnitAreTold) {
   const std::filesystem::path brick = kBrick;

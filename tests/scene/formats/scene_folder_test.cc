@@ -80,6 +80,13 @@ TEST(ReadScene, WhatIsNoFileUnderAPhotographsNameIsTold) {
   EXPECT_THAT(warnings(), Contains(HasSubstr("images/s2.jpg is a folder")));
 }
 
+TEST(ReadScene, AFolderInAMasksPlaceIsTold) {
+  const SceneFolder folder;
+  std::filesystem::create_directories(folder / "masks/s2.tif");
+  EXPECT_THAT(CheckScene(folder.path()).scene.warnings,
+              Contains(HasSubstr("masks/s2.tif: is a folder")));
+}
+
 TEST(ReadScene, APhotographWhoseNameHoldsALineBreakIsLeftOut) {
   const SceneFolder folder;
   std::filesystem::copy(folder / "images/s2.jpg", folder / "images/s\n3.jpg");
@@ -250,7 +257,7 @@ TEST(CheckScene, ACopyOfATaggedPictureNeedsNoTag) {
 TEST(CheckScene, WarnsOfATurnedPictureAndACameraWithItsBackToTheModel) {
   const SceneFolder folder;
   WriteSrgb8(folder / "images/s2.jpg", Image8(20, 30, 3, 128));
-  std::filesystem::remove(folder / "masks/s2.png");
+  std::filesystem::remove(folder / "masks/s2.tif");
   folder.Write("views/s10.view", "x 5 y -20 z 2 i 5 j -40 k 2 a 1.5 v 40");
   std::vector<std::string> warnings;
   for (const Advice& advice : FindOddities(CheckScene(folder.path()).scene)) {
