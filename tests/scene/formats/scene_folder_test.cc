@@ -257,7 +257,7 @@ TEST(CheckScene, ACopyOfATaggedPictureNeedsNoTag) {
 TEST(CheckScene, WarnsOfATurnedPictureAndACameraWithItsBackToTheModel) {
   const SceneFolder folder;
   WriteSrgb8(folder / "images/s2.jpg", Image8(20, 30, 3, 128));
-  std::filesystem::remove(folder / "masks/s2.tif");
+  std::filesystem::remove(folder / "masks/s2.png");
   folder.Write("views/s10.view", "x 5 y -20 z 2 i 5 j -40 k 2 a 1.5 v 40");
   std::vector<std::string> warnings;
   for (const Advice& advice : FindOddities(CheckScene(folder.path()).scene)) {
