@@ -85,6 +85,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadModel{"-3 1", "model.osu:1: a model needs at least 3 points and 1 face"},
         BadModel{"3 99999999999999999999 1 2 3 4 5 6 7 8 9 3 1 2 3",
                  "model.osu:1: the file is too short for 3 points and 9223372036854775807 faces"},
+        BadModel{"% unit: m\n% unit: ft\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3",
+                 "model.osu:2: unit 'ft', but a line before says m; leave the right one"},
         BadModel{"3 1\n0 0 0\n1 zero 0\n0 1 0\n3 1 2 3",
                  "model.osu:3: point 2, y: 'zero' is not a number"},
         BadModel{"3 1\n0 0 0\n1 inf 0\n0 1 0\n3 1 2 3",

@@ -150,6 +150,17 @@ TEST(TagTable, AColumnThatNobodyKnowsStopsNothing) {
                                  "'sigma_position'?")));
 }
 
+TEST(TagTable, WithoutAHeaderOneFaultSaysSo) {
+  for (const char* text : {"s2,5,20,2,5,0,2,1.5,40\ns10,5,20,2,5,0,2,1.5,40\n",
+                           "image|x|y|z|i|j|k|a|v\ns2|5|20|2|5|0|2|1.5|40\n"}) {
+    const TableFolder folder(text);
+    EXPECT_THAT(
+        CheckScene(folder.path()).faults,
+        Contains(HasSubstr("tags.csv:1: expected the first line to name the columns, parted "
+                           "by commas, semicolons or tabs")));
+  }
+}
+
 TEST(TagTable, FaultsComeInTheOrderOfLinesWithTheirPhotographs) {
   const TableFolder folder(
       "image;x;y;z;i;j;k;a;v\n"
