@@ -9,11 +9,13 @@
 #include "scene/check_option.h"
 #include "scene/cholesky.h"
 #include "scene/frames.h"
+#include "scene/text.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 
 namespace groundglass {
 namespace {
@@ -183,6 +185,7 @@ void TagsOptions::Check() const {
   CheckAbove(k1, 0, "tags options: k1");
   CheckAbove(aspect_share, 0, "tags options: aspect_share");
   CheckAbove(max_rms_px, 0, "tags options: max_rms_px");
+  CheckAbove(most_lens_sigmas, 0, "tags options: most_lens_sigmas");
   CheckAtLeast(clear_cost, 0, "tags options: clear_cost");
   CheckAtLeast(written_freedom, 1, "tags options: written_freedom");
   CheckAtLeast(same_place_sigmas, 0, "tags options: same_place_sigmas");
@@ -218,9 +221,21 @@ TagsResult CalibrateTags(const Image8& srgb_grey,
   if (!found) return result;
   result.rms_px = found->rms_px;
   if (!(result.rms_px <= options.max_rms_px)) {
-    result.reason = "its tags' corners miss their surveyed places by " +
-                    std::to_string(static_cast<int>(std::min(result.rms_px, 9999.0))) +
-                    " px; check apriltags.csv, and that each number is there once";
+    result.reason =
+        "its tags' corners miss their surveyed places by " +
+        (result.rms_px > 9999 ? std::string("thousands of")
+                              : std::to_string(static_cast<int>(std::lround(result.rms_px)))) +
+        " px; check apriltags.csv, and that each number is there once";
+    return result;
+  }
+  const double sigma_deg =
+      lens.sigmas.view_angle_deg.value_or(options.view_angle_share * lens.view_angle_deg);
+  if (std::abs(found->tag.view_angle_deg - lens.view_angle_deg) >
+      options.most_lens_sigmas * sigma_deg) {
+    result.reason = "its tags' surveyed places suit only a view angle of " +
+                    FormatNumber(std::round(10 * found->tag.view_angle_deg) / 10) +
+                    " degrees, where " + FormatNumber(std::round(10 * lens.view_angle_deg) / 10) +
+                    " is known; check the signs, the axes and the unit in apriltags.csv, and v";
     return result;
   }
   result.is_found = true;

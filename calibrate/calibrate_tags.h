@@ -28,6 +28,9 @@ struct TagsOptions {
   // A photograph whose corners miss their places by more, root mean square, shows other tags, or
   // their survey is wrong; pixels.
   double max_rms_px = 4;
+  // A view angle further from what is known of the lens, in its standard deviations, makes up for a
+  // survey whose signs or axes are wrong.
+  double most_lens_sigmas = 5;
   // Two poses (a flat tag seen from afar may face two ways) are told apart if their costs, half
   // the sum of squares in standard deviations, differ by this.
   double clear_cost = 6;

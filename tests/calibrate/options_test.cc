@@ -39,8 +39,17 @@ TEST(CalibrateOptions, LinesNameEachField) {
 }
 
 TEST(CalibrateOptions, TagsNameEachField) {
-  [[maybe_unused]] const auto& [noise, angle, shift, k1, aspect, rms, clear, freedom, near, roll] =
-      TagsOptions();
+  [[maybe_unused]] const auto& [noise,
+                                angle,
+                                shift,
+                                k1,
+                                aspect,
+                                rms,
+                                lens,
+                                clear,
+                                freedom,
+                                near,
+                                roll] = TagsOptions();
   ExpectCheckNamesEach<TagsOptions>({
       {"edge_noise_px", [](TagsOptions& o) { o.edge_noise_px = 0; }},
       {"view_angle_share", [](TagsOptions& o) { o.view_angle_share = 0; }},
@@ -48,6 +57,7 @@ TEST(CalibrateOptions, TagsNameEachField) {
       {"k1", [](TagsOptions& o) { o.k1 = 0; }},
       {"aspect_share", [](TagsOptions& o) { o.aspect_share = 0; }},
       {"max_rms_px", [](TagsOptions& o) { o.max_rms_px = 0; }},
+      {"most_lens_sigmas", [](TagsOptions& o) { o.most_lens_sigmas = 0; }},
       {"clear_cost", [](TagsOptions& o) { o.clear_cost = -1; }},
       {"written_freedom", [](TagsOptions& o) { o.written_freedom = 0; }},
       {"same_place_sigmas", [](TagsOptions& o) { o.same_place_sigmas = -1; }},

@@ -197,6 +197,18 @@ TEST_F(CalibrateTagsTest, APhotographWithoutSurveyedTagsSaysSo) {
             "it shows none of the surveyed tags");
 }
 
+TEST_F(CalibrateTagsTest, NoLensMakesUpForAWrongSurvey) {
+  std::mt19937_64 random(5);
+  const Image8 photograph = Photograph(Standpoint(random), random);
+  EXPECT_TRUE(CalibrateTags(photograph, Survey(0.005), LensTag()).is_found);
+  // Every view angle but the known one is then too far from it.
+  TagsOptions options;
+  options.most_lens_sigmas = 1e-9;
+  const TagsResult found = CalibrateTags(photograph, Survey(0.005), LensTag(), options);
+  EXPECT_FALSE(found.is_found);
+  EXPECT_THAT(found.reason, HasSubstr("suit only a view angle of"));
+}
+
 TEST_F(CalibrateTagsTest, ATagThatWasSurveyedElsewhereIsNoticed) {
   std::mt19937_64 random(5);
   std::vector<SurveyedTag> survey = Survey(0.005);
