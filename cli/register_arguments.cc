@@ -7,12 +7,14 @@
 #include "register/register.h"
 #include "scene/advice/advice.h"
 #include "scene/error.h"
+#include "scene/formats/lens.h"
 #include "scene/formats/pose_check.h"
 #include "scene/formats/registration_io.h"
 #include "scene/formats/select_photographs.h"
 #include "scene/formats/text_encoding.h"
 #include "scene/frames.h"
 #include "scene/model_sigma.h"
+#include "scene/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -157,6 +159,27 @@ std::optional<Lens> ReadLensArgument(const RegisterArguments& arguments) {
   return ReadLens(*arguments.lens_file);
 }
 
+namespace {
+
+// A lens of upright pictures for pictures that lie would reject every one of them.
+void RequireSuitableLens(const std::filesystem::path& file, const Scene& scene) {
+  constexpr double kMostRatio = 1.3;
+  const Lens lens = ReadLens(file);
+  for (const Photograph& photograph : scene.photographs) {
+    const double ratio = lens.aspect * photograph.size.height / photograph.size.width;
+    if (ratio < kMostRatio && ratio > 1 / kMostRatio) return;
+  }
+  if (scene.photographs.empty()) return;
+  const ImageSize& size = scene.photographs.front().size;
+  throw Error(file,
+              "a " + FormatNumber(lens.aspect) + " suits no picture here (" +
+                  scene.photographs.front().name + " is " + std::to_string(size.width) + " x " +
+                  std::to_string(size.height) +
+                  " pixels); it is of another camera, or of one that was held the other way");
+}
+
+}  // namespace
+
 Scene ReadSceneForCommand(const RegisterArguments& arguments,
                           const CommonOptions& common,
                           const std::vector<std::string>& not_needed) {
@@ -187,7 +210,7 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
   RequirePhotographs(scene, arguments.options.overrule.accept, "option --accept");
   RequirePhotographs(scene, arguments.options.overrule.reject, "option --reject");
   // Faults here are told before anything that is there already is given up.
-  if (arguments.lens_file) ReadLens(*arguments.lens_file);
+  if (arguments.lens_file) RequireSuitableLens(*arguments.lens_file, scene);
   if (arguments.points_file) {
     std::vector<std::string> names;
     const std::vector<ControlPoint> points = ReadControlPoints(*arguments.points_file);

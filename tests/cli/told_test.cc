@@ -218,6 +218,17 @@ TEST(Told, WhatADryRunCannotReadAndWhichNameIsMeant) {
       testing::AllOf(HasSubstr("would leave out 1 that cannot be read"), HasSubstr("s1.jpg")));
 }
 
+TEST(Told, ALensThatSuitsNoPicture) {
+  const TemporaryFolder work;
+  CopyBrick(work / "scene", {"s1"});
+  WriteAll(work / "upright.lens", "v 42\na 0.667\n");
+  const std::string scene = (work / "scene").string();
+  const ProgramRun run = RunProgram(
+      {"register", scene, "--lens", work / "upright.lens", "-o", work / "out", "--dry-run"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.err, HasSubstr("upright.lens: a 0.667 suits no picture here (s1 is 1200 x 800"));
+}
+
 TEST(Told, AWrongUnitBeforeTheWorkBegins) {
   const TemporaryFolder work;
   const fs::path scene = work / "scene";
