@@ -8,26 +8,16 @@
 #include "register/surveyed_tags_in_set.h"
 #include "register/ties/find_ties.h"
 #include "scene/error.h"
+#include "scene/same_lens.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace groundglass {
 namespace {
-
-// What photographs of the same lens have in common. Those of another shape are turned or cropped.
-using LensKey = std::tuple<std::string, int, int, double, double>;
-
-LensKey LensKeyOf(const Registration& registration) {
-  const ViewTag& tag = registration.measured;
-  const int shape = 1000 * registration.width_px / registration.height_px;
-  if (!tag.camera.empty()) return {tag.camera, shape, 0, 0, 0};
-  return {"", registration.width_px, registration.height_px, tag.view_angle_deg, tag.aspect};
-}
 
 std::vector<PhotographInSet> PlacesIn(const PhotographSet& set) {
   std::vector<PhotographInSet> places;
@@ -70,7 +60,10 @@ JointRefinement Refine(const EdgeModel& edge_model,
   std::map<LensKey, int> lens_of_key;
   for (const PhotographAlignment* alignment : set.alignments) {
     const int next = static_cast<int>(lens_of_key.size());
-    lenses.push_back(lens_of_key.emplace(LensKeyOf(alignment->registration), next).first->second);
+    const Registration& registration = alignment->registration;
+    const LensKey key =
+        LensKeyOf(registration.measured, registration.width_px, registration.height_px);
+    lenses.push_back(lens_of_key.emplace(key, next).first->second);
   }
   JointOptions joint_options = options.joint;
   if (options.prior.digital) {

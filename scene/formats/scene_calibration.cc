@@ -6,12 +6,12 @@
 #include "scene/formats/tag_corners.h"
 #include "scene/formats/view_io.h"
 #include "scene/formats/view_pairs.h"
+#include "scene/same_lens.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace groundglass {
@@ -138,7 +138,6 @@ void SceneReader::CompleteTag(const FoundTag& found, Photograph& photograph) {
 // A lens bends lines by the same in all its photographs, each of which has told it a little. Taken
 // as if each had a lens of its own, registration would believe them all.
 void SceneReader::ShareMeasuredDistortion() {
-  using LensKey = std::tuple<std::string, int, double, double>;
   struct OneLens {
     std::vector<ViewTag*> measured;
     std::vector<ViewTag*> unknown;  // nothing says k1 there
@@ -148,10 +147,10 @@ void SceneReader::ShareMeasuredDistortion() {
     ViewTag& tag = photograph.tag;
     const bool is_measured = with_measured_k1_.count(photograph.name) > 0 && tag.sigmas.k1;
     if (tag.k2 != 0 || (!is_measured && (tag.k1 != 0 || tag.sigmas.k1))) continue;
-    const int shape = 1000 * photograph.size.width / std::max(1, photograph.size.height);
-    const LensKey key = tag.camera.empty() ? LensKey{"", shape, tag.view_angle_deg, tag.aspect}
-                                           : LensKey{tag.camera, shape, 0, 0};
-    (is_measured ? lenses[key].measured : lenses[key].unknown).push_back(&tag);
+    // One whose header cannot be read has no shape.
+    if (photograph.size.width < 1 || photograph.size.height < 1) continue;
+    OneLens& lens = lenses[LensKeyOf(tag, photograph.size.width, photograph.size.height)];
+    (is_measured ? lens.measured : lens.unknown).push_back(&tag);
   }
   for (auto& [key, lens] : lenses) {
     std::vector<ViewTag*>& tags = lens.measured;
