@@ -57,12 +57,12 @@ JointRefinement Refine(const EdgeModel& edge_model,
                        PhotographSet& set,
                        std::vector<MovedTag>& moved_tags) {
   std::vector<int> lenses;
-  std::map<LensKey, int> lens_of_key;
+  std::map<LensIdentity, int> lens_of_key;
   for (const PhotographAlignment* alignment : set.alignments) {
     const int next = static_cast<int>(lens_of_key.size());
     const Registration& registration = alignment->registration;
-    const LensKey key =
-        LensKeyOf(registration.measured, registration.width_px, registration.height_px);
+    const LensIdentity key =
+        LensIdentityOf(registration.measured, registration.width_px, registration.height_px);
     lenses.push_back(lens_of_key.emplace(key, next).first->second);
   }
   JointOptions joint_options = options.joint;

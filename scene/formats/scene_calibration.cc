@@ -142,14 +142,14 @@ void SceneReader::ShareMeasuredDistortion() {
     std::vector<ViewTag*> measured;
     std::vector<ViewTag*> unknown;  // nothing says k1 there
   };
-  std::map<LensKey, OneLens> lenses;
+  std::map<LensIdentity, OneLens> lenses;
   for (Photograph& photograph : result_.scene.photographs) {
     ViewTag& tag = photograph.tag;
     const bool is_measured = with_measured_k1_.count(photograph.name) > 0 && tag.sigmas.k1;
     if (tag.k2 != 0 || (!is_measured && (tag.k1 != 0 || tag.sigmas.k1))) continue;
     // One whose header cannot be read has no shape.
     if (photograph.size.width < 1 || photograph.size.height < 1) continue;
-    OneLens& lens = lenses[LensKeyOf(tag, photograph.size.width, photograph.size.height)];
+    OneLens& lens = lenses[LensIdentityOf(tag, photograph.size.width, photograph.size.height)];
     (is_measured ? lens.measured : lens.unknown).push_back(&tag);
   }
   for (auto& [key, lens] : lenses) {
