@@ -151,6 +151,8 @@ double ScoreAt(const LinearSamples& linear, const ScoreMaps& maps, const CameraP
 
 // The points of a grid over the leading directions, inside the prior's ellipsoid. The outermost
 // loop runs over the weakest direction, so neighbours in the list are neighbours in the image.
+// Where the prior reaches very far the points are too many to be held: no more than a few above
+// the limit ever are.
 std::vector<CameraParameters> MakeGrid(const LinearSamples& linear,
                                        double step_px,
                                        const HypothesisOptions& options) {
@@ -159,10 +161,15 @@ std::vector<CameraParameters> MakeGrid(const LinearSamples& linear,
     bool too_many = false;
     for (int k = 0; k < kNumCameraParameters && !too_many; ++k) {
       const double reach_px = options.reach_sigmas * linear.rms_px[k];
+      if (reach_px > step_px * options.max_grid_points) {
+        too_many = true;
+        break;
+      }
       const int steps = static_cast<int>(reach_px / step_px);
       if (steps == 0) continue;
       std::vector<CameraParameters> wider;
       for (const CameraParameters& point : grid) {
+        if (static_cast<int>(wider.size()) > options.max_grid_points) break;
         for (int i = -steps; i <= steps; ++i) {
           CameraParameters moved = point;
           moved[k] = i * step_px / linear.rms_px[k];

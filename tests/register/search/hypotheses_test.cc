@@ -106,6 +106,15 @@ TEST(FindHypotheses, LooksNoFartherThanThePriorAllows) {
   }
 }
 
+// Such a grid has more points than any memory holds before its steps have grown.
+TEST(FindHypotheses, AWidePriorIsSearchedWithFewPointsToo) {
+  SlideOffRegister slide(0.025, -0.018, 1.2);
+  PriorOptions prior;
+  prior.position_m = 1000;
+  slide.prior = MakeCameraPrior(slide.tag, kPhotoWidth, kPhotoHeight, slide.model.unit, {}, prior);
+  EXPECT_LE(slide.Find().size(), static_cast<size_t>(HypothesisOptions().max_starts) + 1);
+}
+
 TEST(PriorNonlinearity, GrowsWithTheSquareOfThePrior) {
   const SlideOffRegister slide(0, 0, 0);
   CameraPrior twice = slide.prior;
