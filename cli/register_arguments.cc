@@ -6,6 +6,7 @@
 #include "cli/warnings_last.h"
 #include "register/register.h"
 #include "scene/advice/advice.h"
+#include "scene/building_bounds.h"
 #include "scene/error.h"
 #include "scene/formats/lens.h"
 #include "scene/formats/pose_check.h"
@@ -13,6 +14,7 @@
 #include "scene/formats/select_photographs.h"
 #include "scene/formats/text_encoding.h"
 #include "scene/frames.h"
+#include "scene/length_unit.h"
 #include "scene/model_sigma.h"
 #include "scene/text.h"
 
@@ -178,6 +180,26 @@ void RequireSuitableLens(const std::filesystem::path& file, const Scene& scene) 
                   " pixels); it is of another camera, or of one that was held the other way");
 }
 
+// A standard deviation as large as the building holds nothing; most often it is meant in another
+// unit.
+std::vector<std::string> DescribeWideSigmas(const PriorOptions& prior, const PolygonModel& model) {
+  const double size_m = ComputeBuildingBounds(model).Diagonal() * MetresPerUnit(model.unit);
+  std::vector<std::string> warnings;
+  const auto look_at = [&](const std::optional<double>& sigma_m, const std::string& option) {
+    if (!sigma_m || *sigma_m < size_m) return;
+    warnings.push_back(fmt::format(
+        "{} {}: so many metres are more than the whole building ({:.2g} m across), so the tags "
+        "hold nothing; it is in metres, whatever the model's unit",
+        option,
+        FormatNumber(*sigma_m),
+        size_m));
+  };
+  look_at(prior.position_m, "--sigma-position");
+  look_at(prior.height_m, "--sigma-height");
+  look_at(prior.lookat_m, "--sigma-lookat");
+  return warnings;
+}
+
 }  // namespace
 
 Scene ReadSceneForCommand(const RegisterArguments& arguments,
@@ -205,6 +227,9 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
     if (advice.severity == Advice::Severity::kScene && !common.dry_run) {
       PrintWarnings({scene.warnings.back()});
     }
+  }
+  for (const std::string& warning : DescribeWideSigmas(arguments.options.prior, scene.model)) {
+    scene.warnings.push_back(warning);
   }
   RequireSoundPoses(scene);
   RequirePhotographs(scene, arguments.options.overrule.accept, "option --accept");
