@@ -134,6 +134,7 @@ void PrintSummary(const BakeResult& result,
                                          {"texel_scale", result.texel_scale},
                                          {"new_faces", new_faces},
                                          {"pages", result.model.pages.size()},
+                                         {"remarks", result.remarks},
                                          {"unreadable", unreadable}};
     std::printf("%s\n",
                 json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
@@ -150,10 +151,6 @@ void PrintSummary(const BakeResult& result,
       result.model.pages.size());
   for (const int face : result.new_faces) {
     std::printf("new since the photographs: %s\n", DescribeFace(result.model.model, face).c_str());
-  }
-  if (result.texel_scale > 1) {
-    std::printf("texels are %.2f times as long as the photographs allow, to stay within --memory\n",
-                result.texel_scale);
   }
 }
 
@@ -227,6 +224,7 @@ int RunInvrender(const InvrenderArguments& arguments) {
               stages,
               printer);
   PrintSummary(result, photographs.size(), unreadable, arguments.common.json);
+  PrintWarnings(result.remarks);
   PrintWarnings(unreadable);
   return unreadable.empty() ? kExitDone : kExitNeedsReview;
 }

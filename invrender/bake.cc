@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -123,6 +124,14 @@ std::vector<BakePhotograph> SortedByName(std::span<const BakePhotograph> photogr
   return sorted;
 }
 
+double TexelsOf(const std::vector<Chart>& charts) {
+  return std::accumulate(charts.begin(), charts.end(), 0.0, [](double sum, const Chart& chart) {
+    return chart.texel_size > 0
+               ? sum + static_cast<double>(chart.width_texels) * chart.height_texels
+               : sum;
+  });
+}
+
 constexpr size_t kNoLimit = std::numeric_limits<size_t>::max();
 
 // A bake on the way: its steps in their order.
@@ -140,7 +149,7 @@ class Bake {
         charts_(MakeCharts(model, options.charts)),
         chart_of_face_(ChartOfFace(charts_, model.faces.size())),
         cache_(ImageFiles(photographs_), IsLimited() ? 0 : kNoLimit, options.pages.bits),
-        steps_(progress, static_cast<int>(photographs_.size() + 1 + charts_.size())) {
+        steps_(progress, static_cast<int>(photographs_.size() + 2 + charts_.size())) {
     if (!options.as_photographed) return;
     earlier_.emplace(*options.as_photographed, model, options.earlier_model);
     result_.new_faces = earlier_->FindNewFaces();
@@ -160,11 +169,14 @@ class Bake {
     photos_ = Prepare({.num_halvings = plan_.mask_halvings}, &steps_);
     ChooseTexelSizes(model_, photos_, options_.pages, charts_);
     if (IsLimited()) KeepToPlan();
+    RemarkOnTexels();
   }
 
   // Each chart's place on the pages.
   void LayOut() {
     page_sizes_ = PackCharts(charts_, options_.pages.gutter_texels, options_.pages.max_page_texels);
+    steps_.Tell("laid out " + std::to_string(std::lround(TexelsOf(charts_) / 1e6)) +
+                " million texels, pages: " + std::to_string(page_sizes_.size()));
   }
 
   // Settles colour on blocks, and measures what photographs differ in.
@@ -231,6 +243,26 @@ class Bake {
       if (chart.texel_size > 0) chart.SetTexelSize(chart.texel_size * plan_.texel_scale);
     }
     cache_.SetMaxBytes(plan_.photo_bytes);
+  }
+
+  void RemarkOnTexels() {
+    if (result_.texel_scale > 1) {
+      result_.remarks.push_back("texels are " +
+                                FormatNumber(std::round(100 * result_.texel_scale) / 100) +
+                                " times as long as the photographs allow, to stay within --memory");
+    }
+    if (options_.pages.texel_size == 0) return;
+    PageOptions as_resolved = options_.pages;
+    as_resolved.texel_size = 0;
+    std::vector<Chart> resolved = charts_;
+    ChooseTexelSizes(model_, photos_, as_resolved, resolved);
+    const double times = TexelsOf(charts_) / std::max(1.0, TexelsOf(resolved));
+    if (times < options_.pages.needless_texels) return;
+    result_.remarks.push_back(
+        "--texel-size " + FormatNumber(options_.pages.texel_size) + " makes " +
+        std::to_string(std::lround(times)) +
+        " times as many texels as the photographs resolve, and no sharper texture; leave it out "
+        "for texels as fine as the photographs");
   }
 
   void MeasureDetail() {

@@ -10,6 +10,7 @@
 #include "scene/textured_model.h"
 
 #include <span>
+#include <string>
 #include <vector>
 
 // Inverse rendering: from photographs with their cameras to a textured model. The stages, in order,
@@ -41,6 +42,7 @@ struct BakeResult {
   Coverage coverage;
   std::vector<int> new_faces;  // of the model, that as_photographed has no part of; ascending
   double texel_scale = 1;  // above 1: texels were made this much longer to stay within the memory
+  std::vector<std::string> remarks;  // for a person: where texels are not as one would expect
 };
 
 // Inverse rendering (Thorman 1988, chapter 4): every texel of every face is looked up through the

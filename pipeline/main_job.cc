@@ -134,14 +134,17 @@ MainJob BeginMainJob(const Scene& scene,
   return {scene, out, options, observer, std::move(keys), std::move(stages)};
 }
 
-// What of the model has a texture afterwards.
-std::optional<double> EnsureTexture(const std::vector<BakePhotograph>& photographs, MainJob& job) {
+// The result says what of the model has a texture afterwards.
+void EnsureTexture(const std::vector<BakePhotograph>& photographs,
+                   MainJob& job,
+                   MainJobResult& result) {
   if (job.stages.IsComplete(kTextureStage, job.keys.texture)) {
     job.observer.Keep(kTextureStage);
     const std::optional<Coverage> coverage = ReadCoverage(job.out / "coverage.json");
-    if (!coverage) return std::nullopt;
-    if (job.observer.textured) job.observer.textured(coverage->CoveredShare());
-    return coverage->CoveredShare();
+    if (!coverage) return;
+    result.covered_share = coverage->CoveredShare();
+    if (job.observer.textured) job.observer.textured(*result.covered_share);
+    return;
   }
   const BakeResult bake = BakeAndWrite(job.scene,
                                        photographs,
@@ -151,9 +154,9 @@ std::optional<double> EnsureTexture(const std::vector<BakePhotograph>& photograp
                                        job.keys.texture,
                                        job.stages,
                                        job.observer);
-  const double covered_share = bake.coverage.CoveredShare();
-  if (job.observer.textured) job.observer.textured(covered_share);
-  return covered_share;
+  result.remarks.insert(result.remarks.end(), bake.remarks.begin(), bake.remarks.end());
+  result.covered_share = bake.coverage.CoveredShare();
+  if (job.observer.textured) job.observer.textured(*result.covered_share);
 }
 
 // Texture, tiles and pictures.
@@ -161,7 +164,7 @@ void MakeTextured(const std::vector<BakePhotograph>& photographs,
                   MainJob& job,
                   Attempts& attempts,
                   MainJobResult& result) {
-  attempts.Try("texture", [&] { result.covered_share = EnsureTexture(photographs, job); });
+  attempts.Try("texture", [&] { EnsureTexture(photographs, job, result); });
   attempts.Try("tiles", [&] {
     EnsureTiles(job.scene,
                 photographs,

@@ -15,6 +15,8 @@ struct PageOptions {
   // and shown between texels, would lose a third of the detail on the way.
   double kept_share = 0.75;
   double texel_px = 0.85;
+  // With a texel_size: as many times the texels that the photographs resolve are told as needless.
+  double needless_texels = 4;
   // Texels along a side of the largest page. Faces too big for it get coarser texels.
   int max_page_texels = 8192;
   // Texels around each chart that repeat its border, so that mipmaps and JPEG blocks stay clean.

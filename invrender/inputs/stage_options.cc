@@ -28,6 +28,7 @@ void PageOptions::Check(const std::string& path) const {
   CheckAtLeast(texel_size, 0, path + "texel_size");
   CheckFromTo(kept_share, 0, 1, path + "kept_share");
   CheckAbove(texel_px, 0, path + "texel_px");
+  CheckAtLeast(needless_texels, 1, path + "needless_texels");
   CheckFromTo(max_page_texels, 64, 32768, path + "max_page_texels");
   CheckFromTo(gutter_texels, 1, 24, path + "gutter_texels");
   if (bits != 8 && bits != 16) throw OptionError(path + "bits", "must be 8 or 16");

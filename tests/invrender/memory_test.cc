@@ -70,6 +70,15 @@ TEST(Memory, WhereThePagesWouldBeTooLargeTexelsAreLarger) {
             result.texel_scale - 0.2);
 }
 
+TEST(Memory, FarFinerTexelsThanThePhotographsResolveAreTold) {
+  const Corner corner;
+  EXPECT_THAT(BakeTextures(corner.model, corner.photographs).remarks, testing::IsEmpty());
+  BakeOptions options;
+  options.pages.texel_size = 0.01;
+  EXPECT_THAT(BakeTextures(corner.model, corner.photographs, options).remarks,
+              testing::ElementsAre(testing::HasSubstr("as the photographs resolve")));
+}
+
 TEST(Memory, ALimitThatNothingCanHoldIsAnError) {
   const Corner corner;
   BakeOptions options;

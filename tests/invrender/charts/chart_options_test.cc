@@ -21,6 +21,7 @@ TEST(InvrenderOptions, PageCheckNamesEachField) {
   [[maybe_unused]] const auto& [texel_size,
                                 kept_share,
                                 texel_px,
+                                needless_texels,
                                 max_page_texels,
                                 gutter_texels,
                                 bits] = PageOptions();
@@ -28,6 +29,7 @@ TEST(InvrenderOptions, PageCheckNamesEachField) {
       {"texel_size", [](auto& o) { o.texel_size = kNotANumber; }},
       {"kept_share", [](auto& o) { o.kept_share = 2; }},
       {"texel_px", [](auto& o) { o.texel_px = 0; }},
+      {"needless_texels", [](auto& o) { o.needless_texels = 0; }},
       {"max_page_texels", [](auto& o) { o.max_page_texels = 63; }},
       {"gutter_texels", [](auto& o) { o.gutter_texels = 0; }},
       {"bits", [](auto& o) { o.bits = 10; }},
