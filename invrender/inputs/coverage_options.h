@@ -17,6 +17,9 @@ struct ViewpointOptions {
   std::array<double, 3> distances = {1.5, 3, 0.75};
   // Faces seen more obliquely than this (cosine to the normal) show too little.
   double least_cosine = 0.3;
+  // Where the backs of faces are met in more of the directions, one stands within the model
+  // (BackShare).
+  double most_backs = 0.5;
 
   // Throws Error naming the first field out of range, behind `path`.
   void Check(const std::string& path = "viewpoint options: ") const;

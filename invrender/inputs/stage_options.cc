@@ -198,6 +198,7 @@ void ViewpointOptions::Check(const std::string& path) const {
   for (const double turn : turns_deg) CheckFromTo(turn, -90, 90, path + "turns_deg");
   for (const double distance : distances) CheckAbove(distance, 0, path + "distances");
   CheckFromTo(least_cosine, 0, 1, path + "least_cosine");
+  CheckFromTo(most_backs, 0, 1, path + "most_backs");
 }
 
 void CoverageOptions::Check(const std::string& path) const {

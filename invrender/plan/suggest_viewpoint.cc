@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "invrender/plan/suggest_viewpoint.h"
 
+#include "scene/back_share.h"
 #include "scene/frames.h"
 
 #include <algorithm>
@@ -43,7 +44,8 @@ std::optional<Eigen::Vector3d> SuggestViewpoint(const PolygonModel& model,
         if (stand.z() < lowest + eye - tolerance) continue;
         if (from_target.normalized().dot(normal) < options.least_cosine) continue;
         if (!visibility.IsClear(stand, target_in_world, tolerance)) continue;
-        if (!IsUnderARoof(visibility, stand)) return stand;
+        if (IsUnderARoof(visibility, stand)) continue;
+        if (BackShare(visibility, stand) <= options.most_backs) return stand;
       }
     }
   }

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/advice/standpoint.h"
 
+#include "scene/back_share.h"
 #include "scene/frames.h"
 
 #include <algorithm>
@@ -18,26 +19,6 @@ constexpr int kRaysAcross = 15;
 constexpr int kRaysDown = 10;
 // Of the directions around a camera, the share that must meet backs for it to stand inside.
 constexpr double kSurroundedShare = 0.9;
-
-// The share of directions about the horizon, and above it, that meet the back of a face first.
-bool IsSurroundedByBacks(const Visibility& visibility,
-                         const Eigen::Vector3d& position,
-                         const Eigen::Matrix3d& back,
-                         bool flips_faces) {
-  constexpr int kDirections = 16;
-  int num_backs = 0;
-  int total = 0;
-  for (const double height : {0.02, 0.35}) {
-    for (int i = 0; i < kDirections; ++i, ++total) {
-      const double angle = 2 * std::numbers::pi * (i + 0.5) / kDirections;
-      const Eigen::Vector3d direction =
-          (back * Eigen::Vector3d(std::cos(angle), std::sin(angle), height)).normalized();
-      const auto hit = visibility.FirstHit(position, direction);
-      if (hit && hit->is_front == flips_faces) ++num_backs;
-    }
-  }
-  return num_backs >= kSurroundedShare * total;
-}
 
 bool IsBelowGround(const Box& bounds,
                    const Visibility& visibility,
@@ -188,7 +169,8 @@ Standpoint FindStandpoint(const Box& bounds,
   standpoint.apparent_size = 2 * std::atan(bounds.Diagonal() / 2 / to_model) /
                              RadiansFromDegrees(std::max(1e-6, tag.view_angle_deg));
 
-  standpoint.is_inside = IsSurroundedByBacks(visibility, position, back, reading.flips_faces);
+  standpoint.is_inside =
+      BackShare(visibility, position, back, reading.flips_faces) >= kSurroundedShare;
   // The ground is where the model has its foot: a reading that turns it over is judged without.
   const bool keeps_up = (reading.linear * Eigen::Vector3d::UnitZ()).normalized().z() > 0.99;
   standpoint.is_below_ground =

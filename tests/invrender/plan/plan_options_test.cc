@@ -30,13 +30,14 @@ TEST(InvrenderOptions, MemoryCheckNamesEachField) {
 }
 
 TEST(InvrenderOptions, ViewpointCheckNamesEachField) {
-  [[maybe_unused]] const auto& [eye_level_ft, turns_deg, distances, least_cosine] =
+  [[maybe_unused]] const auto& [eye_level_ft, turns_deg, distances, least_cosine, most_backs] =
       ViewpointOptions();
   ExpectCheckNamesEach<ViewpointOptions>({
       {"eye_level_ft", [](auto& o) { o.eye_level_ft = 0; }},
       {"turns_deg", [](auto& o) { o.turns_deg[6] = 100; }},
       {"distances", [](auto& o) { o.distances[2] = 0; }},
       {"least_cosine", [](auto& o) { o.least_cosine = 2; }},
+      {"most_backs", [](auto& o) { o.most_backs = -1; }},
   });
 }
 

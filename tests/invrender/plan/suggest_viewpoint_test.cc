@@ -52,5 +52,20 @@ TEST(SuggestViewpoint, NobodyIsSentIndoors) {
   EXPECT_GT(stand->z(), 15);
 }
 
+// Four walls and no roof, and a screen within that faces one of them.
+TEST(SuggestViewpoint, NobodyIsSentIntoACourtWithoutARoof) {
+  PolygonModel model;
+  AddPlainFace(model, {{0, 0, 0}, {60, 0, 0}, {60, 0, 30}, {0, 0, 30}});
+  AddPlainFace(model, {{60, 0, 0}, {60, 60, 0}, {60, 60, 30}, {60, 0, 30}});
+  AddPlainFace(model, {{60, 60, 0}, {0, 60, 0}, {0, 60, 30}, {60, 60, 30}});
+  AddPlainFace(model, {{0, 60, 0}, {0, 0, 0}, {0, 0, 30}, {0, 60, 30}});
+  AddPlainFace(model, {{25, 20, 0}, {35, 20, 0}, {35, 20, 10}, {25, 20, 10}});
+  const Visibility visibility(model);
+  ASSERT_FALSE(visibility.FirstHit({30, 10, 5.5}, Eigen::Vector3d::UnitZ()));
+  EXPECT_FALSE(SuggestViewpoint(model, visibility, 4, {30, 20, 5}));
+  // An outer wall is photographed from without.
+  EXPECT_TRUE(SuggestViewpoint(model, visibility, 0, {30, 0, 15}));
+}
+
 }  // namespace
 }  // namespace groundglass
