@@ -4,7 +4,9 @@
 
 #include "scene/text.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -21,9 +23,17 @@ void TenthOf(ViewTag& tag) {
   SetTagValue(tag, kKey, GetTagValue(tag, kKey) / 10);
 }
 
+// A slide lies a few per cent of its frame off; a picture that was cut may lie farther off.
+void TakeShiftsAsPerCent(ViewTag& tag) {
+  constexpr double kMoreThanAnySlide = 0.2;
+  if (std::max(std::abs(tag.shift_x), std::abs(tag.shift_y)) < kMoreThanAnySlide) return;
+  tag.shift_x /= 100;
+  tag.shift_y /= 100;
+}
+
 }  // namespace
 
-const std::array<TagSlip, 27> kTagSlips = {{
+const std::array<TagSlip, 28> kTagSlips = {{
     {"x and y exchanged, and i and j",
      [](ViewTag& tag) {
        std::swap(tag.position_in_site.x(), tag.position_in_site.y());
@@ -65,6 +75,7 @@ const std::array<TagSlip, 27> kTagSlips = {{
     {"ten times k", TimesTen<TagKey::kK>},
     {"a tenth of v", TenthOf<TagKey::kV>},
     {"ten times v", TimesTen<TagKey::kV>},
+    {"shift_x and shift_y in per cent", TakeShiftsAsPerCent},
 }};
 
 namespace {

@@ -16,7 +16,7 @@ struct TagSlip {
   void (*correct)(ViewTag& tag);
 };
 // The likelier ones first.
-extern const std::array<TagSlip, 27> kTagSlips;
+extern const std::array<TagSlip, 28> kTagSlips;
 
 // A tag as it was meant, if this slip was made.
 struct MeantTag {

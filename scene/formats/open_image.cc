@@ -125,6 +125,14 @@ void OpenImage::Open(const OIIO::ImageSpec& config) {
   }
 }
 
+// Some mark a single picture as an animation too. A reader of its own, since it loses its place.
+bool HasSecondPicture(const std::filesystem::path& file) {
+  const auto probe = OIIO::ImageInput::open(file.string());
+  const bool has = probe && probe->seek_subimage(1, 0);
+  OIIO::geterror();
+  return has;
+}
+
 // A scanner's TIFF may begin with a thumbnail, or hold several pictures.
 void OpenImage::ChoosePage() {
   warnings_.clear();
@@ -135,7 +143,7 @@ void OpenImage::ChoosePage() {
   }
   if (kind_.reader == "gif" || kind_.reader == "webp") {
     // Their readers lose their place when they are asked for pages that are not there.
-    if (spec_.get_int_attribute("oiio:Movie") != 0) {
+    if (spec_.get_int_attribute("oiio:Movie") != 0 && HasSecondPicture(file_)) {
       warnings_.push_back("is an animation; its first picture is taken");
     }
     return;

@@ -36,6 +36,18 @@ void RefuseUntagged(const Scene& scene, const std::string& name, const std::stri
               DescribeUntagged(image.stem().string(), scene.folder) + how);
 }
 
+// Where a name with a comma was taken for two; empty if it was not.
+std::string ExplainComma(const std::string& name, const std::vector<PhotographName>& known) {
+  for (const PhotographName& photograph : known) {
+    const std::string& whole = photograph.name;
+    const size_t start = whole.find(name);
+    if (start == std::string::npos || whole.find(',') == std::string::npos) continue;
+    return " (a comma parts two names here; to be named alone, " + Quote(whole) +
+           " and its tag want names without one)";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<PhotographName> AllPhotographNames(const Scene& scene) {
@@ -69,8 +81,9 @@ std::vector<std::string> FindPhotographNames(const Scene& scene,
       for (const PhotographName& photograph : known) {
         all += (all.empty() ? " " : ", ") + photograph.name;
       }
-      throw Error(place + ": no photograph is called " + Quote(name) + NearestName(name, known) +
-                  "; there are" + all);
+      const std::string comma = ExplainComma(name, known);
+      throw Error(place + ": no photograph is called " + Quote(name) +
+                  (comma.empty() ? NearestName(name, known) : comma) + "; there are" + all);
     }
     found.push_back(known[*index].name);
   }

@@ -101,6 +101,9 @@ void ForEachCharacter(std::string_view bytes, const Take& take) {
   }
 }
 
+constexpr std::string_view kLittleEndianMark = "\xFF\xFE";
+constexpr std::string_view kBigEndianMark = "\xFE\xFF";
+
 }  // namespace
 
 bool IsUtf8(std::string_view bytes) {
@@ -115,17 +118,24 @@ bool IsUtf8(std::string_view bytes) {
   return true;
 }
 
+bool IsUtf16(std::string_view bytes) {
+  if (bytes.starts_with(kBigEndianMark) || bytes.starts_with(kLittleEndianMark)) return true;
+  // Without its mark: every other byte of plain letters is zero.
+  if (bytes.size() < 4) return false;
+  const bool is_little_endian = bytes[0] != 0 && bytes[1] == 0 && bytes[3] == 0;
+  const bool is_big_endian = bytes[0] == 0 && bytes[1] != 0 && bytes[2] == 0;
+  return is_little_endian || is_big_endian;
+}
+
 Utf8Text Utf8FromBytes(std::string_view bytes) {
-  if (bytes.substr(0, 2) == "\xFF\xFE") return {Utf8FromUtf16(bytes.substr(2), false), false};
-  if (bytes.substr(0, 2) == "\xFE\xFF") return {Utf8FromUtf16(bytes.substr(2), true), false};
-  if (bytes.substr(0, 3) == "\xEF\xBB\xBF") bytes.remove_prefix(3);
-  // UTF-16 without its mark: every other byte of plain letters is zero.
-  if (bytes.size() > 3 && bytes[0] != 0 && bytes[1] == 0 && bytes[3] == 0) {
-    return {Utf8FromUtf16(bytes, false), false};
+  if (IsUtf16(bytes)) {
+    const bool is_big_endian = bytes[0] == 0 || bytes.starts_with(kBigEndianMark);
+    if (bytes.starts_with(kBigEndianMark) || bytes.starts_with(kLittleEndianMark)) {
+      bytes.remove_prefix(2);
+    }
+    return {Utf8FromUtf16(bytes, is_big_endian), false};
   }
-  if (bytes.size() > 3 && bytes[0] == 0 && bytes[1] != 0 && bytes[2] == 0) {
-    return {Utf8FromUtf16(bytes, true), false};
-  }
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   if (IsUtf8(bytes)) return {std::string(bytes), false};
   return {Utf8FromWindows1252(bytes), true};
 }

@@ -9,6 +9,8 @@
 namespace groundglass {
 
 bool IsUtf8(std::string_view bytes);
+// Whether it is UTF-16, with its mark or, of plain letters, without.
+bool IsUtf16(std::string_view bytes);
 
 // A text as UTF-8, without byte order mark, however it was saved: as UTF-8, UTF-16 (Excel's
 // "Unicode text"), or, where it is neither, Windows-1252, which holds Latin-1.

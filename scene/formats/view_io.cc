@@ -34,8 +34,7 @@ std::string ReadTextFile(const std::filesystem::path& file) {
   if (bytes.starts_with("{\\rtf")) {
     throw Error(file, "this is a rich-text document (RTF); save it as plain text");
   }
-  const bool is_utf16 = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
-  return is_utf16 ? Utf8FromBytes(bytes).text : bytes;
+  return IsUtf16(bytes) ? Utf8FromBytes(bytes).text : bytes;
 }
 
 ViewTag ParseView(const std::string& text, const std::filesystem::path& name) {

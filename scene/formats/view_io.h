@@ -32,8 +32,8 @@ std::string FormatCorrectedView(const std::string& measured_text,
 
 // Reads a whole file; Error if it cannot be opened.
 std::string ReadFileBytes(const std::filesystem::path& file);
-// The same for text: UTF-16 with its mark, as Windows' Notepad saves "Unicode", becomes UTF-8; any
-// other bytes stay as they are.
+// The same for text: UTF-16, as Windows' Notepad saves "Unicode", becomes UTF-8; any other bytes
+// stay as they are.
 std::string ReadTextFile(const std::filesystem::path& file);
 
 }  // namespace groundglass
