@@ -122,6 +122,10 @@ std::vector<Advice> FindOddities(const Scene& scene,
     std::vector<TagDoubt> doubts = FindTagDoubts(context);
     if (with_pictures) {
       fits = FitPictures(context);
+      if (AdviseOnOrder(context, fits) || AdviseOnNoFit(context, fits, *judge)) {
+        doubts.clear();
+        fits.clear();
+      }
       WeighTags(context, fits, doubts);
     }
     AdviseOnTags(context, doubts);

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -23,10 +22,8 @@ bool SeesIt(const Standpoint& standpoint) {
 
 // The mean score of right cameras is above this, that of wrong ones below (picture_fit.h).
 constexpr double kFittingScore = 3;
-
-double Mean(const std::vector<double>& values) {
-  return std::reduce(values.begin(), values.end()) / static_cast<double>(values.size());
-}
+// The mean of fewer may lie there by chance.
+constexpr size_t kFewestToTell = 3;
 
 double ShareThatSees(const AdviceContext& context,
                      const std::vector<const Photograph*>& photographs,
@@ -56,7 +53,7 @@ void AdviseOnGivenCameras(const AdviceContext& context, const PictureJudge* judg
   const double as_read = ShareThatSees(context, photographs, {});
   const std::vector<double> fits_as_read =
       judge ? judge->Fit(context.scene.model, {}, kTagReach) : std::vector<double>();
-  if (as_read >= kFew && (!judge || Mean(fits_as_read) >= kFittingScore)) return;
+  if (as_read >= kFew && (!judge || PictureJudge::Mean(fits_as_read) >= kFittingScore)) return;
   const Reading* best = nullptr;
   double best_fit = 0;
   for (const Reading& reading : readings) {
@@ -65,9 +62,10 @@ void AdviseOnGivenCameras(const AdviceContext& context, const PictureJudge* judg
     if (!judge) continue;
     const std::vector<double> fits =
         judge->Fit(ReadOtherwise(context.scene.model, reading.model), {}, kTagReach);
-    if (Mean(fits) <= best_fit || !PictureJudge::IsClearlyBetter(fits, fits_as_read)) continue;
+    if (PictureJudge::Mean(fits) <= best_fit || !PictureJudge::IsClearlyBetter(fits, fits_as_read))
+      continue;
     best = &reading;
-    best_fit = Mean(fits);
+    best_fit = PictureJudge::Mean(fits);
   }
   const std::string file = context.scene.model_file.string();
   if (best) {
@@ -82,6 +80,14 @@ void AdviseOnGivenCameras(const AdviceContext& context, const PictureJudge* judg
                     " % of the cameras stand inside the model or under it, or hardly see it",
                 "cameras and model need the same origin, axes and unit: those of a "
                 "reconstruction by itself, without control points, have none of them");
+  } else if (photographs.size() >= kFewestToTell) {
+    context.Add(Advice::Severity::kScene,
+                file,
+                "the pictures' edges are not where these cameras see the model's, no more than by "
+                "chance",
+                "look at their origin, axes (z up?) and unit, which must be the model's; at the "
+                "order of the quaternions (w first), at the principal point (the frame's middle, "
+                "in pixels), and at the model's other side (--frame)");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace groundglass {
 
@@ -34,6 +35,11 @@ std::vector<double> PictureJudge::Fit(const PolygonModel& model,
                                nearness);
   });
   return fits;
+}
+
+double PictureJudge::Mean(const std::vector<double>& fits) {
+  if (fits.empty()) return 0;
+  return std::reduce(fits.begin(), fits.end()) / static_cast<double>(fits.size());
 }
 
 bool PictureJudge::IsClearlyBetter(const std::vector<double>& fits,

@@ -21,6 +21,8 @@ class PictureJudge {
   std::vector<double> Fit(const PolygonModel& model,
                           const Retag& retag = {},
                           double nearness = 1) const;
+  // Of all pictures; 0 of none.
+  static double Mean(const std::vector<double>& fits);
   // Nearly all pictures are fitted better than by the other, and clearly so.
   static bool IsClearlyBetter(const std::vector<double>& fits, const std::vector<double>& others);
 

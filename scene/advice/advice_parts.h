@@ -74,6 +74,8 @@ struct TagDoubt {
   std::vector<MeantTag> meant;   // slips that explain it, the likelier ones first
   bool is_only_unusual = false;  // the picture may clear it
 };
+// Whether the slip changes a look-at point that the table has no numbers of.
+bool ChangesWhatIsNotWritten(const Scene& scene, const MeantTag& meant);
 // One for each photograph. None (empty list) if most tags have the same slip, which is told.
 std::vector<TagDoubt> FindTagDoubts(const AdviceContext& context);
 void AdviseOnTags(const AdviceContext& context, const std::vector<TagDoubt>& doubts);

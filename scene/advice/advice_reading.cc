@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -53,13 +52,6 @@ bool IsMirrored(const Suitability& as_read, const Suitability& other, const Read
 
 bool IsScaled(const OtherReading& model) {
   return std::abs(std::abs(model.linear.determinant()) - 1) > 1e-6;
-}
-
-// How well the pictures suit a reading, over all of them.
-double FitOverAll(const AdviceContext& context, const PictureJudge& judge, const Reading& reading) {
-  const std::vector<double> fits =
-      judge.Fit(ReadOtherwise(context.scene.model, reading.model), reading.retag);
-  return std::reduce(fits.begin(), fits.end()) / static_cast<double>(fits.size());
 }
 
 struct Choice {
@@ -134,7 +126,9 @@ std::optional<Choice> FindBest(const AdviceContext& context,
   std::vector<double> fits(count, 0);
   size_t best = 0;
   for (size_t i = 0; judge && count > 1 && i < count; ++i) {
-    fits[i] = FitOverAll(context, *judge, *suitable[i].second);
+    const Reading& reading = *suitable[i].second;
+    fits[i] = PictureJudge::Mean(
+        judge->Fit(ReadOtherwise(context.scene.model, reading.model), reading.retag));
     if (fits[i] > (best == 0 ? fits[0] + kClearMeanLead : fits[best])) best = i;
   }
   Choice choice{*suitable[best].second, std::nullopt};
@@ -197,6 +191,22 @@ void AdviseOnWhatIsUnknown(const AdviceContext& context, size_t num_implausible)
               "unit; look at the overlays (groundglass check SCENE -o DIR)");
 }
 
+// Heights of look-at points that nobody wrote. True if so.
+bool AdviseOnNoHeights(const AdviceContext& context) {
+  constexpr size_t kFewest = 3;  // by chance
+  const std::vector<Photograph>& photographs = context.scene.photographs;
+  if (photographs.size() < kFewest) return false;
+  const bool are_none = std::all_of(photographs.begin(), photographs.end(), [](const auto& one) {
+    return one.tag.lookat_in_site.z() == 0;
+  });
+  if (!are_none) return false;
+  context.Add(Advice::Severity::kScene,
+              context.scene.folder.string(),
+              "k is 0 in every tag, as if the height of what is looked at had not been measured",
+              "write the height of the point that each camera looks at");
+  return true;
+}
+
 }  // namespace
 
 Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* judge) {
@@ -206,6 +216,7 @@ Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* jud
   const bool is_suspicious = as_read.implausible_share >= 0.5 || as_read.plausible_share < 0.7 ||
                              as_read.median_lookat_error > 0.2 || as_read.front_share < 0.35;
   if (!is_suspicious) return Misreading::kNone;
+  if (AdviseOnNoHeights(context)) return Misreading::kOther;
 
   const std::vector<Reading> axes = OtherAxes(context);
   std::vector<Reading> readings = axes;
@@ -213,6 +224,9 @@ Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* jud
   for (const Reading& reading : OtherUnits(context, axes_options)) readings.push_back(reading);
   for (const Reading& reading : OtherTags(context)) readings.push_back(reading);
   for (const Reading& reading : OtherDatums(context, photographs)) readings.push_back(reading);
+  for (const Reading& reading : OtherAngles(context)) readings.push_back(reading);
+  for (const Reading& reading : LookatsAsDirections(context)) readings.push_back(reading);
+  for (const Reading& reading : HeightsDownwards(context)) readings.push_back(reading);
   for (const Reading& reading : LeftHandedAxes(context)) readings.push_back(reading);
   std::optional<Choice> choice = FindBest(context, photographs, as_read, readings, judge);
   // Another size suits tags by chance where the model is one wall, and another sign where look-at

@@ -218,6 +218,86 @@ std::vector<Reading> OtherTags(const AdviceContext& context) {
   return readings;
 }
 
+std::vector<Reading> OtherAngles(const AdviceContext& context) {
+  if (!context.scene.tags_have_angles) return {};
+  using Change = Eigen::Vector2d (*)(const Eigen::Vector2d&);  // yaw, pitch in degrees
+  std::vector<Reading> readings;
+  const auto add = [&](const std::string& message, const std::string& remedy, Change change) {
+    Reading& reading = readings.emplace_back();
+    reading.message = message;
+    reading.remedy = remedy;
+    reading.retag = [change](ViewTag tag) {
+      const Eigen::Vector3d axis = tag.lookat_in_site - tag.position_in_site;
+      const double distance = axis.norm();
+      if (!(distance > 0)) return tag;
+      const Eigen::Vector2d meant =
+          change({DegreesFromRadians(std::atan2(axis.x(), axis.y())),
+                  DegreesFromRadians(std::asin(std::clamp(axis.z() / distance, -1.0, 1.0)))});
+      const double yaw = RadiansFromDegrees(meant.x());
+      const double pitch = RadiansFromDegrees(meant.y());
+      tag.lookat_in_site =
+          tag.position_in_site + distance * Eigen::Vector3d(std::sin(yaw) * std::cos(pitch),
+                                                            std::cos(yaw) * std::cos(pitch),
+                                                            std::sin(pitch));
+      return tag;
+    };
+  };
+  add("pitch counts downwards in the table",
+      "it counts up from the horizon: change the sign of every pitch",
+      [](const auto& a) { return Eigen::Vector2d(a.x(), -a.y()); });
+  add("yaw is a bearing from north, clockwise, in the table",
+      "it counts from south through east: write 180 - yaw in its place",
+      [](const auto& a) { return Eigen::Vector2d(180 - a.x(), a.y()); });
+  add("yaw counts the other way round in the table",
+      "it counts from south through east: change the sign of every yaw",
+      [](const auto& a) { return Eigen::Vector2d(-a.x(), a.y()); });
+  add("pitch counts from the zenith in the table",
+      "it counts up from the horizon: write 90 - pitch in its place",
+      [](const auto& a) { return Eigen::Vector2d(a.x(), 90 - a.y()); });
+  add("yaw and pitch are in radians in the table",
+      "they are in degrees: multiply them by 57.2958",
+      [](const auto& a) { return Eigen::Vector2d(a * 180 / M_PI); });
+  add("yaw and pitch are in gon (400 to a circle) in the table",
+      "they are in degrees: multiply them by 0.9",
+      [](const auto& a) { return Eigen::Vector2d(a * 0.9); });
+  return readings;
+}
+
+std::vector<Reading> LookatsAsDirections(const AdviceContext& context) {
+  // Of the model's size: so near to the origin lie directions of any usual length.
+  constexpr double kShort = 0.05;
+  const double size = context.bounds.Diagonal();
+  for (const Photograph& photograph : context.scene.photographs) {
+    if (photograph.tag.lookat_in_site.norm() > kShort * size) return {};
+  }
+  Reading reading;
+  reading.message = "i, j, k are a direction in every tag, and no point";
+  reading.remedy =
+      "they are a point that the camera looks at, in the model's unit: write x + 100 i in place of "
+      "i, and likewise for j and k";
+  reading.retag = [middle = SiteFromWorld(context.bounds.Center())](ViewTag tag) {
+    const double distance = (middle - tag.position_in_site).norm();
+    const Eigen::Vector3d direction = tag.lookat_in_site.normalized();
+    tag.lookat_in_site = tag.position_in_site + distance * direction;
+    return tag;
+  };
+  return {reading};
+}
+
+std::vector<Reading> HeightsDownwards(const AdviceContext& context) {
+  if (context.bounds.max.z() > 0.1 * context.bounds.Diagonal()) return {};
+  std::vector<Reading> readings;
+  for (const bool flips_faces : {true, false}) {
+    Reading& reading = readings.emplace_back();
+    reading.model.linear = Eigen::Vector3d(1, flips_faces ? 1 : -1, -1).asDiagonal();
+    reading.model.flips_faces = flips_faces;
+    reading.message = flips_faces ? "its z counts downwards" : "it stands on its head";
+    reading.remedy = flips_faces ? "change the sign of every z in the model (it must count up)"
+                                 : "turn it over in the program that drew it";
+  }
+  return readings;
+}
+
 // All heights off by the same: the look-at points lie all above the model, or all below it.
 std::vector<Reading> OtherDatums(const AdviceContext& context,
                                  const std::vector<const Photograph*>& photographs) {

@@ -33,6 +33,12 @@ std::vector<Reading> OtherUnits(const AdviceContext& context, const std::string&
 std::string AxesOptions(const ModelOptions& options);
 // The tags' numbers, written in another order or with another sign.
 std::vector<Reading> OtherTags(const AdviceContext& context);
+// The angles of tags that have them, in another unit or counted otherwise; none for others.
+std::vector<Reading> OtherAngles(const AdviceContext& context);
+// Look-at points that are directions; none if they are too long for that.
+std::vector<Reading> LookatsAsDirections(const AdviceContext& context);
+// The model upside down, with heights that count downwards.
+std::vector<Reading> HeightsDownwards(const AdviceContext& context);
 // All heights off by the same: the look-at points lie all above the model, or all below it.
 std::vector<Reading> OtherDatums(const AdviceContext& context,
                                  const std::vector<const Photograph*>& photographs);

@@ -6,6 +6,7 @@
 #include "scene/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -13,6 +14,8 @@
 
 namespace groundglass {
 namespace {
+
+constexpr std::array<TagKey, 3> kLookatKeys = {TagKey::kI, TagKey::kJ, TagKey::kK};
 
 // Where the model takes less of the frame's width than this, no edge can be placed.
 constexpr double kSmallestApparentSize = 0.03;
@@ -36,7 +39,7 @@ std::vector<MeantTag> FindSlips(const AdviceContext& context,
   std::vector<MeantTag> explain;
   if (!IsLookatWrong(as_read)) return explain;
   for (const MeantTag& meant : FindMeantTags(photograph.tag)) {
-    if (meant.is_of_digits) continue;
+    if (meant.is_of_digits || ChangesWhatIsNotWritten(context.scene, meant)) continue;
     const Standpoint standpoint = Locate(context, photograph, meant.tag);
     if (IsPlausible(standpoint) && standpoint.front_share > 0.7 && standpoint.lookat_error < 0.02) {
       explain.push_back(meant);
@@ -173,8 +176,10 @@ TagDoubt DoubtTag(const AdviceContext& context, size_t index) {
   TagDoubt doubt;
   doubt.wrong = FindWrong(context, photograph, context.standpoints[index]);
   doubt.meant = FindSlips(context, photograph, context.standpoints[index]);
-  doubt.remedy = "look at x, y, z and i, j, k (x east, y south, z up, in " +
-                 UnitName(context.scene.model.unit) + "), and whether it is this photograph's tag";
+  doubt.remedy = std::string("look at x, y, z and ") +
+                 (context.scene.tags_have_angles ? "yaw, pitch" : "i, j, k") +
+                 " (x east, y south, z up, in " + UnitName(context.scene.model.unit) +
+                 "), and whether it is this photograph's tag";
   if (doubt.wrong.empty() && !doubt.meant.empty()) {
     doubt.wrong = "the camera does not see the point that it is said to look at";
     doubt.is_only_unusual = true;
@@ -190,6 +195,13 @@ TagDoubt DoubtTag(const AdviceContext& context, size_t index) {
 }
 
 }  // namespace
+
+bool ChangesWhatIsNotWritten(const Scene& scene, const MeantTag& meant) {
+  if (!scene.tags_have_angles) return false;
+  return std::any_of(std::begin(kLookatKeys), std::end(kLookatKeys), [&](TagKey key) {
+    return meant.is_changed[static_cast<size_t>(key)];
+  });
+}
 
 std::vector<TagDoubt> FindTagDoubts(const AdviceContext& context) {
   const size_t total = context.scene.photographs.size();

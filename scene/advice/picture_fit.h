@@ -45,6 +45,14 @@ bool HaveCommonAlternative(const std::vector<PictureFit>& fits);
 // Tells these.
 void AdviseOnPictures(const AdviceContext& context, const std::vector<PictureFit>& fits);
 
+// Sound tags that stand beside other photographs than their own. True if there are any.
+bool AdviseOnOrder(const AdviceContext& context, const std::vector<PictureFit>& fits);
+
+// Pictures that the model suits no more than by chance, and why if that can be told. True if so.
+bool AdviseOnNoFit(const AdviceContext& context,
+                   const std::vector<PictureFit>& fits,
+                   const PictureJudge& judge);
+
 // What the pictures say of the tags: slips that explain a tag are weighed, and found where the
 // numbers alone are silent; a doubt about what is only unusual is dropped where the picture suits
 // it.

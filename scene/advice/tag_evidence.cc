@@ -105,13 +105,16 @@ std::vector<MeantTag> Name(const std::vector<WeighedTag>& weighed) {
 
 // The slips that the picture confirms; none if it confirms none.
 std::vector<MeantTag> FindConfirmed(const Scale& scale,
+                                    const Scene& scene,
                                     const PictureFit& fit,
                                     const ViewTag& tag,
                                     double expected) {
   const double least =
       std::max(expected > 0 ? std::max(kFoundScore, kFoundShare * expected) : kClearScore,
                std::max(0.0, fit.nearby) + kClearLead);
-  std::vector<WeighedTag> weighed = scale.Weigh(FindMeantTags(tag), 0);
+  std::vector<MeantTag> meant = FindMeantTags(tag);
+  std::erase_if(meant, [&](const auto& one) { return ChangesWhatIsNotWritten(scene, one); });
+  std::vector<WeighedTag> weighed = scale.Weigh(meant, 0);
   if (BestScore(weighed) < least && expected > 0) {
     weighed = scale.Weigh(FindMeantTagsByDigits(tag), kDigitHandicap);
   }
@@ -135,7 +138,8 @@ void WeighTag(const AdviceContext& context,
     return;
   }
   if (doubt.is_only_unusual && !is_poor) return;
-  const std::vector<MeantTag> confirmed = FindConfirmed(scale, fit, photograph.tag, expected);
+  const std::vector<MeantTag> confirmed =
+      FindConfirmed(scale, context.scene, fit, photograph.tag, expected);
   if (!confirmed.empty()) {
     if (doubt.wrong.empty()) doubt.wrong = "the picture does not show what its tag looks at";
     doubt.meant = confirmed;

@@ -84,6 +84,9 @@ namespace {
 constexpr std::array<TagKey, 7> kWrittenKeys = {
     TagKey::kX, TagKey::kY, TagKey::kZ, TagKey::kI, TagKey::kJ, TagKey::kK, TagKey::kV};
 
+// Nobody writes more by hand: longer ones were computed.
+constexpr size_t kMostDigits = 9;
+
 bool IsWrittenDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 // True if it is added.
@@ -127,6 +130,7 @@ std::vector<MeantTag> FindMeantTags(const ViewTag& tag) {
   }
   for (const TagKey key : kWrittenKeys) {
     const std::string digits = FormatNumber(GetTagValue(tag, key));
+    if (digits.size() > kMostDigits) continue;
     for (size_t i = 0; i < digits.size(); ++i) {
       if (!IsWrittenDigit(digits[i])) continue;
       const size_t next = i + 1 < digits.size() && digits[i + 1] == '.' ? i + 2 : i + 1;
@@ -139,6 +143,7 @@ std::vector<MeantTag> FindMeantTags(const ViewTag& tag) {
   }
   for (const TagKey key : kWrittenKeys) {
     const std::string digits = FormatNumber(GetTagValue(tag, key));
+    if (digits.size() > kMostDigits) continue;
     for (size_t i = 0; i < digits.size(); ++i) {
       std::string meant = digits;
       if (IsWrittenDigit(digits[i])) AddSpelled(meant.erase(i, 1), "a digit less", key, tag, found);
@@ -151,6 +156,7 @@ std::vector<MeantTag> FindMeantTagsByDigits(const ViewTag& tag) {
   std::vector<MeantTag> found;
   for (const TagKey key : kWrittenKeys) {
     const std::string digits = FormatNumber(GetTagValue(tag, key));
+    if (digits.size() > kMostDigits) continue;
     for (size_t i = digits[0] == '-' ? 1 : 0; i <= digits.size(); ++i) {
       for (char digit = '0'; digit <= '9'; ++digit) {
         std::string meant = digits;

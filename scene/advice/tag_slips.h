@@ -25,7 +25,8 @@ struct MeantTag {
   bool is_of_digits = false;  // one of many ways to change digits, which suit a tag by chance too
   std::array<bool, kNumTagKeys> is_changed{};  // of its numbers, those that the slip has changed
 };
-// What the tag may have been meant to be, valid ones only, the likelier ones first: with one of
+// What the tag may have been meant to be (its numbers that people write, not those that were
+// computed), valid ones only, the likelier ones first: with one of
 // kTagSlips, or with two neighbouring digits exchanged in one number, or one too many.
 std::vector<MeantTag> FindMeantTags(const ViewTag& tag);
 // With a digit that was left out of one number, or another in its place: there are some hundred.

@@ -46,6 +46,7 @@ struct Scene {
   std::vector<Photograph> photographs;
   // The files of the COLMAP model that gave the tags, if one did.
   std::vector<std::filesystem::path> camera_files;
+  bool tags_have_angles = false;  // a table's, which gives yaw,pitch in place of i,j,k
   std::vector<UnreadablePhotograph> unreadable;
   std::vector<std::string> left_out;  // names of photographs that the options leave out
   std::vector<std::filesystem::path> untagged_images;  // photographs that no tag is there for

@@ -89,6 +89,7 @@ void SceneReader::ReadTable(const fs::path& table, const FilesByStem& images) {
   try {
     const TagTable rows = ReadTagTable(table, result_.scene.model);
     for (const std::string& fault : rows.faults) Fault(fault);
+    result_.scene.tags_have_angles = rows.has_angles;
     std::vector<std::string>& warnings = result_.scene.warnings;
     warnings.insert(warnings.end(), rows.warnings.begin(), rows.warnings.end());
     for (const TagRow& row : rows.rows) {

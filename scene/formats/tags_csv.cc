@@ -70,6 +70,7 @@ class TableReader {
       table_.faults = std::move(faults);
       for (const CsvRow& row : csv.rows()) ReadRow(csv, row);
     }
+    table_.has_angles = has_angles_;
     return std::move(table_);
   }
 

@@ -36,6 +36,7 @@ struct TagTable {
   };
   std::vector<RowFault> row_faults;
   std::vector<std::string> warnings;
+  bool has_angles = false;  // yaw,pitch in place of i,j,k
 };
 
 // Reads tags.csv (docs/scene-folder.md): a view file's keys as columns; `yaw,pitch` may stand for

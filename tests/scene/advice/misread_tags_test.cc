@@ -2,6 +2,7 @@
 // Part of Groundglass.
 // Tags and cameras that all mean something else than they say: heights, angles, units.
 #include "scene/advice/advice.h"
+#include "scene/formats/scene.h"
 #include "scene/formats/scene_folder.h"
 #include "tests/support/brick_scene.h"
 
@@ -107,6 +108,93 @@ TEST(MisreadTags, ALensWrittenInPlaceOfTheViewAngleIsTold) {
   const std::vector<Advice> found = FindOddities(scene);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_THAT(FormatAdvice(found[0]), HasSubstr("v is the lens's focal length in mm"));
+}
+
+// The only advice of the scene with its pictures.
+std::string OnlyAdviceOf(const Scene& scene) {
+  const std::vector<Advice> found = FindOddities(scene);
+  return found.size() == 1 ? FormatAdvice(found[0])
+                           : std::to_string(found.size()) + " pieces of advice";
+}
+
+TEST(MisreadTags, GivenCamerasThatNoPictureSuitsAreTold) {
+  const std::filesystem::path brick = kBrick;
+  SceneOptions options;
+  options.views = brick / "truth/cameras";
+  Scene scene = ReadScene(brick, options);
+  // The building turned about its middle: the cameras see it, from elsewhere.
+  const Eigen::Vector3d middle = ComputeBounds(scene.model).Center();
+  for (Eigen::Vector3d& point : scene.model.points_in_world) {
+    point.head<2>() = 2 * middle.head<2>() - point.head<2>();
+  }
+  const std::vector<Advice> found = FindModelOddities(scene);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(FormatAdvice(found[0]), HasSubstr("no more than by chance"));
+}
+
+TEST(MisreadTags, ABuildingTurnedWhereItStandsIsTold) {
+  Scene scene = ReadHall();
+  const Eigen::Vector3d middle = ComputeBounds(scene.model).Center();
+  for (Eigen::Vector3d& point : scene.model.points_in_world) {
+    point.head<2>() = 2 * middle.head<2>() - point.head<2>();
+  }
+  EXPECT_THAT(OnlyAdviceOf(scene), HasSubstr("turned by 180 degrees about its middle"));
+}
+
+TEST(MisreadTags, ABuildingOfAnotherSizeIsToldAndNoTagBlamed) {
+  Scene scene = ReadHall();
+  for (Eigen::Vector3d& point : scene.model.points_in_world) point *= 1.12;
+  EXPECT_THAT(OnlyAdviceOf(scene), HasSubstr("no more than by chance"));
+}
+
+TEST(MisreadTags, TagsBesideTheNextPhotographAreTold) {
+  Scene scene = ReadHall();
+  const ViewTag first = scene.photographs.front().tag;
+  for (size_t i = 0; i + 1 < scene.photographs.size(); ++i) {
+    scene.photographs[i].tag = scene.photographs[i + 1].tag;
+  }
+  scene.photographs.back().tag = first;
+  EXPECT_THAT(OnlyAdviceOf(scene), HasSubstr("stands beside the photograph before its own"));
+}
+
+TEST(MisreadTags, TwoTagsThatAreExchangedAreTold) {
+  Scene scene = ReadHall();
+  std::swap(scene.photographs[1].tag, scene.photographs[6].tag);
+  EXPECT_THAT(OnlyAdviceOf(scene),
+              HasSubstr("the tags of " + scene.photographs[1].name + " and " +
+                        scene.photographs[6].name + " are exchanged"));
+}
+
+TEST(MisreadTags, HeightsThatWereNotWrittenAreTold) {
+  Scene scene = ReadHall();
+  for (Photograph& photograph : scene.photographs) photograph.tag.lookat_in_site.z() = 0;
+  EXPECT_THAT(ToldOf(scene), ElementsAre(HasSubstr("k is 0 in every tag")));
+}
+
+TEST(MisreadTags, DirectionsInPlaceOfPointsAreTold) {
+  Scene scene = ReadHall();
+  for (Photograph& photograph : scene.photographs) {
+    ViewTag& tag = photograph.tag;
+    tag.lookat_in_site = (tag.lookat_in_site - tag.position_in_site).normalized();
+  }
+  EXPECT_THAT(ToldOf(scene), ElementsAre(HasSubstr("i, j, k are a direction in every tag")));
+}
+
+TEST(MisreadTags, AModelWhoseHeightsCountDownwardsIsTold) {
+  Scene scene = ReadHall();
+  for (Eigen::Vector3d& point : scene.model.points_in_world) point.z() *= -1;
+  EXPECT_THAT(OnlyAdviceOf(scene), HasSubstr("its z counts downwards"));
+}
+
+// The tags of a table with yaw and pitch, which the reader made look-at points of.
+TEST(MisreadTags, AnglesOfATableThatCountOtherwiseAreTold) {
+  Scene scene = ReadHall();
+  scene.tags_have_angles = true;
+  for (Photograph& photograph : scene.photographs) {
+    ViewTag& tag = photograph.tag;
+    tag.lookat_in_site.z() = 2 * tag.position_in_site.z() - tag.lookat_in_site.z();
+  }
+  EXPECT_THAT(OnlyAdviceOf(scene), HasSubstr("pitch counts downwards in the table"));
 }
 
 }  // namespace
