@@ -109,7 +109,13 @@ int FindSurveyPhotograph(const Survey& survey, const std::string& word) {
     throw Error("photograph " + one.name + " has no camera that can be asked: " + one.reason);
   }
   names.insert(names.end(), left_out.begin(), left_out.end());
-  throw Error("there is no photograph " + word + NearestName(word, names));
+  constexpr size_t kMostNamed = 30;
+  std::string all;
+  for (size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
+    all += (i == 0 ? " " : ", ") + names[i].name;
+  }
+  if (names.size() > kMostNamed) all += ", ...";
+  throw Error("there is no photograph " + word + NearestName(word, names) + "; there are" + all);
 }
 
 }  // namespace groundglass

@@ -125,7 +125,11 @@ std::string ExplainWhy(std::span<const BoardPhotograph> photographs,
     }
     return "; " + text;
   }
-  if (2 * num_own > num_april_tags) return "";
+  if (2 * num_own > num_april_tags) {
+    return "; " + photographs[most].name + " shows most, " +
+           std::to_string(detections[most].size()) +
+           ": elsewhere they are too small, blurred or cut off; let the board fill the frame";
+  }
   return "; " + DescribeSeenBoard(board, detections);
 }
 

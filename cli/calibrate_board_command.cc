@@ -4,6 +4,7 @@
 #include "cli/calibrate_parts.h"
 #include "cli/json_output.h"
 #include "cli/printed_zero.h"
+#include "cli/register_arguments.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/image_io.h"
@@ -16,9 +17,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace groundglass {
@@ -107,6 +110,50 @@ void PrintResult(const BoardResult& result) {
     std::printf("k2       %10.5f +- %.5f\n", ZeroIfRounded(lens.k2, 5), lens.sigma_k2);
 }
 
+// The photographs that can be read and have the size that most of them have; what is left out is
+// told by name.
+std::vector<BoardPhotograph> ReadBoardPhotographs(const BoardArguments& arguments,
+                                                  std::vector<std::string>& left_out) {
+  const Progress progress = MakeProgress(arguments.common, "reading");
+  const size_t count = arguments.photographs.size();
+  std::vector<BoardPhotograph> photographs(count);
+  std::vector<std::string> faults(count);
+  ProgressCounter steps(progress, static_cast<int>(count));
+  tbb::parallel_for(size_t{0}, count, [&](size_t i) {
+    const std::filesystem::path& file = arguments.photographs[i];
+    try {
+      photographs[i] = {file.string(), ReadGrey8(file)};
+      steps.Tell(file.filename().string());
+    } catch (const Error& error) {
+      faults[i] = error.what();
+    }
+  });
+  for (const std::string& fault : faults) {
+    if (!fault.empty()) left_out.push_back(fault);
+  }
+  std::erase_if(photographs, [](const auto& one) { return one.srgb_grey.width == 0; });
+  std::map<std::pair<int, int>, int> num_of_size;
+  const auto size_of = [](const BoardPhotograph& one) {
+    return std::pair(one.srgb_grey.width, one.srgb_grey.height);
+  };
+  for (const BoardPhotograph& photograph : photographs) ++num_of_size[size_of(photograph)];
+  const auto usual =
+      std::max_element(num_of_size.begin(), num_of_size.end(), [](const auto& a, const auto& b) {
+        return a.second < b.second;
+      });
+  std::erase_if(photographs, [&](const BoardPhotograph& photograph) {
+    const auto [width, height] = size_of(photograph);
+    if (std::pair(width, height) == usual->first) return false;
+    left_out.push_back(photograph.name + ": " + std::to_string(width) + " x " +
+                       std::to_string(height) + " pixels, and most have " +
+                       std::to_string(usual->first.first) + " x " +
+                       std::to_string(usual->first.second) +
+                       "; photographs of one lens have one size, and are not turned");
+    return true;
+  });
+  return photographs;
+}
+
 int CalibrateFromPhotographs(const BoardArguments& arguments) {
   if (arguments.photographs.empty())
     throw CLI::RequiredError("photographs of the board, or --print,");
@@ -119,14 +166,10 @@ int CalibrateFromPhotographs(const BoardArguments& arguments) {
             " photographs and write " + arguments.lens_file.string(),
         {{"lens", arguments.lens_file.string()}, {"photographs", arguments.photographs.size()}});
   }
-  const Progress progress = MakeProgress(arguments.common, "reading");
-  std::vector<BoardPhotograph> photographs(arguments.photographs.size());
-  ProgressCounter steps(progress, static_cast<int>(photographs.size()));
-  tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
-    const std::filesystem::path& file = arguments.photographs[i];
-    photographs[i] = {file.string(), ReadGrey8(file)};
-    steps.Tell(file.filename().string());
-  });
+  std::vector<std::string> left_out;
+  const std::vector<BoardPhotograph> photographs = ReadBoardPhotographs(arguments, left_out);
+  if (photographs.empty()) throw Error(left_out.front());
+  PrintWarnings(left_out);
   const Board board =
       arguments.target_file ? ReadKalibrTarget(*arguments.target_file) : arguments.board;
   BoardResult result = CalibrateBoard(photographs, board, arguments.options);
@@ -144,7 +187,7 @@ int CalibrateFromPhotographs(const BoardArguments& arguments) {
   for (const std::string& remark : result.remarks) {
     std::fprintf(stderr, "groundglass: %s\n", remark.c_str());
   }
-  return kExitDone;
+  return left_out.empty() ? kExitDone : kExitNeedsReview;
 }
 
 }  // namespace

@@ -131,7 +131,11 @@ int RunCheck(const CheckArguments& arguments) {
   report.oddities = FindOddities(report.check.scene, options.model);
   // Overlays show best where a tag is off, and what is at fault with the others.
   if (!arguments.output.empty() && !arguments.common.dry_run) {
-    report.overlays = DrawMeasuredTags(report.check.scene, arguments);
+    try {
+      report.overlays = DrawMeasuredTags(report.check.scene, arguments);
+    } catch (const Error& error) {  // what was found is told all the same
+      report.check.faults.push_back(std::string("overlays are not whole: ") + error.what());
+    }
   }
   std::fputs(arguments.common.json
                  ? FormatCheckReportJson(report, arguments.model_arguments).c_str()

@@ -58,7 +58,8 @@ std::string NoSuchFace(const PolygonModel& model, const std::string& word) {
            std::to_string(*last) + "-" + std::to_string(*first);
   }
   return "no face is called " + Quote(word) + "; faces have numbers from 1 to " +
-         std::to_string(HighestFaceNumber(model)) + ", and names";
+         std::to_string(HighestFaceNumber(model)) +
+         ", and names; several are written as 3-7, or one by one";
 }
 
 // " s1 s2 s3", and how many more if there are many.

@@ -87,9 +87,13 @@ std::vector<std::string> CheckSelection(const PhotographSelection& selection, co
   std::vector<BakePhotograph> photographs = AllOf(scene);
   std::vector<std::string> faults = NarrowPhotographs(selection, scene, photographs);
   if (photographs.empty()) {
-    throw Error(
-        "option --exclude: it leaves no photograph for the texture; register corrects tags "
-        "alone");
+    std::string unreadable;
+    for (const UnreadablePhotograph& one : scene.unreadable) {
+      for (const std::string& reason : one.reasons) unreadable += "\n  " + reason;
+    }
+    throw Error("option --exclude: it leaves no photograph for the texture" +
+                (unreadable.empty() ? "; register corrects tags alone"
+                                    : ", since the others cannot be read:" + unreadable));
   }
   return faults;
 }

@@ -201,6 +201,19 @@ void RefineWhatIsShared(const EdgeModel& edge_model,
   }
 }
 
+// COLMAP's reader of text models ends a name at a blank.
+std::optional<std::string> DescribeBlankInName(const Scene& scene) {
+  for (const Photograph& photograph : scene.photographs) {
+    const std::string name = ImageName(scene, photograph);
+    if (name.find(' ') == std::string::npos) continue;
+    return Quote(name) +
+           " has a blank in its name, at which COLMAP ends it when it reads cameras/images.txt; "
+           "for COLMAP: groundglass convert OUT FOLDER --to colmap-binary, or rename the "
+           "photograph";
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 RegisteredScene RegisterScene(const Scene& scene,
@@ -223,6 +236,7 @@ RegisteredScene RegisterScene(const Scene& scene,
     const std::vector<SeenTagCorner> tag_corners = TagCornersOf(scene, registered.warnings);
     RefineWhatIsShared(edge_model, options, tag_corners, progress, alignments, registered);
   }
+  if (const auto blank = DescribeBlankInName(scene)) registered.warnings.push_back(*blank);
   JudgeSharedConflict(options.conflict, alignments);
   for (PhotographAlignment& alignment : alignments) {
     FinishVerdict(options, alignment);

@@ -202,7 +202,8 @@ void SetCovariance(const CameraCovariance& covariance, CameraPrior& prior) {
 
 void PriorOptions::Check() const {
   const auto require_positive = [](double value, const char* name) {
-    if (!(value > 0 && std::isfinite(value))) {
+    CheckFinite(value, std::string("option ") + name + ":");
+    if (!(value > 0)) {
       throw OptionError(std::string("option ") + name + ":",
                         "a standard deviation must be above 0, not " + FormatNumber(value));
     }

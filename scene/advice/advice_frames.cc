@@ -313,8 +313,23 @@ bool AdviseOnInvertedAspects(const AdviceContext& context) {
 
 }  // namespace
 
+// A picture too small for any edge to be placed: a thumbnail in place of the photograph.
+void AdviseOnThumbnail(const AdviceContext& context, const Photograph& photograph) {
+  constexpr int kSmallest_px = 100;
+  if (std::max(photograph.size.width, photograph.size.height) >= kSmallest_px) return;
+  context.Add(Advice::Severity::kDetail,
+              photograph.image_file.string(),
+              "has only " + std::to_string(photograph.size.width) + " x " +
+                  std::to_string(photograph.size.height) +
+                  " pixels, too few to find the model's edges in",
+              "put the photograph itself there: this is a thumbnail, it seems");
+}
+
 void AdviseOnFrames(const AdviceContext& context) {
   AdviseOnRadians(context);
+  for (const Photograph& photograph : context.scene.photographs) {
+    AdviseOnThumbnail(context, photograph);
+  }
   if (AdviseOnInvertedAspects(context)) return;
   for (const Photograph& photograph : context.scene.photographs) {
     AdviseOnAspect(context, photograph);

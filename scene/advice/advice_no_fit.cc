@@ -43,7 +43,9 @@ bool AdviseOnNoFit(const AdviceContext& context,
                    const std::vector<PictureFit>& pictures,
                    const PictureJudge& judge) {
   std::vector<double> nearby;
-  for (const PictureFit& fit : pictures) nearby.push_back(fit.nearby);
+  for (const PictureFit& fit : pictures) {
+    if (fit.nearby > 0) nearby.push_back(fit.nearby);  // else it is not known
+  }
   if (nearby.size() < kFewest || PictureJudge::Mean(nearby) >= kNoFit ||
       HaveCommonAlternative(pictures)) {
     return false;

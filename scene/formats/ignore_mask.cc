@@ -96,7 +96,7 @@ void CheckMaskSize(const std::filesystem::path& file,
 
 Image8 ReadIgnoreMask(const std::filesystem::path& file, const ImageSize& photograph) {
   OpenImage image(file);
-  image.CheckIsWhole();
+  image.CheckIsWhole(true);
   Image8 ignore = Oriented(ReadWhite(image), image.ExifOrientation());
   CheckMaskSize(file, {ignore.width, ignore.height}, photograph);
   return ignore;

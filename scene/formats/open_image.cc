@@ -8,6 +8,9 @@
 #include <OpenImageIO/tiffutils.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
 #include <limits>
 
 namespace groundglass {
@@ -125,6 +128,29 @@ void OpenImage::Open(const OIIO::ImageSpec& config) {
   }
 }
 
+// How much of a file's end is zeros and nothing else, of its size.
+double ShareOfZerosAtEnd(const std::filesystem::path& file) {
+  constexpr std::streamoff kBlock = 1 << 16;
+  std::error_code failure;
+  const auto size = static_cast<std::streamoff>(std::filesystem::file_size(file, failure));
+  std::ifstream stream(file, std::ios::binary);
+  std::string block;
+  std::streamoff end = size;
+  while (stream && end > 0) {
+    const std::streamoff begin = std::max<std::streamoff>(0, end - kBlock);
+    block.resize(static_cast<size_t>(end - begin));
+    stream.seekg(begin);
+    stream.read(block.data(), end - begin);
+    const size_t last = block.find_last_not_of('\0');
+    if (last != std::string::npos) {
+      return static_cast<double>(size - begin - static_cast<std::streamoff>(last) - 1) /
+             static_cast<double>(size);
+    }
+    end = begin;
+  }
+  return size > 0 && end == 0 ? 1 : 0;
+}
+
 // Some mark a single picture as an animation too. A reader of its own, since it loses its place.
 bool HasSecondPicture(const std::filesystem::path& file) {
   const auto probe = OIIO::ImageInput::open(file.string());
@@ -195,8 +221,12 @@ void OpenImage::LookForInks(OIIO::ImageSpec config) {
   }
 }
 
-void OpenImage::CheckIsWhole() {
-  if (kind_.reader != "jpeg" || proxy_) return;
+void OpenImage::CheckIsWhole(bool may_be_black) {
+  if (proxy_) return;
+  if (kind_.reader != "jpeg") {
+    CheckTail(may_be_black);
+    return;
+  }
   const JpegState state = FindJpegState(file_);
   if (state == JpegState::kIncomplete) {
     throw Error(file_,
@@ -206,6 +236,26 @@ void OpenImage::CheckIsWhole() {
   if (state == JpegState::kNoEndMark) {
     warnings_.push_back("lacks its end mark, as if it had been cut; all of its pixels are there");
   }
+}
+
+// Where a copy was interrupted, disks and cards leave zeros, which many a decoder takes for colour.
+void OpenImage::CheckTail(bool may_be_black) {
+  constexpr double kTellingShare = 0.05;
+  constexpr double kDamagedShare = 0.2;
+  constexpr std::array<std::string_view, 3> kCompressed = {"webp", "heif", "jpeg2000"};
+  const double share = ShareOfZerosAtEnd(file_);
+  if (share < kTellingShare) return;
+  const std::string percent = std::to_string(std::lround(100 * share));
+  if (share >= kDamagedShare &&
+      std::find(kCompressed.begin(), kCompressed.end(), kind_.reader) != kCompressed.end()) {
+    throw Error(file_,
+                "this image is damaged: the last " + percent +
+                    " % of the file are zeros, as an interrupted copy leaves them; copy it again "
+                    "from where it came from");
+  }
+  if (may_be_black) return;
+  warnings_.push_back("ends in zeros, the last " + percent +
+                      " % of the file: black, or the copy was interrupted");
 }
 
 bool OpenImage::IsLinear() const {

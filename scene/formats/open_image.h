@@ -51,9 +51,11 @@ class OpenImage {
   // What its codes mean, if the file says so and they are not sRGB's.
   std::optional<ColourProfile> Profile() const;
 
-  // Throws Error for a JPEG that ends before its picture does, warns of one without its end mark.
-  // Reads the whole file.
-  void CheckIsWhole();
+  // Throws Error for a JPEG that ends before its picture does, and for what ends in zeros where its
+  // format has none; warns of one without its end mark, and of other files that end in zeros. Reads
+  // the
+  // file. may_be_black: zeros are what many a mask ends in.
+  void CheckIsWhole(bool may_be_black = false);
 
   // All channels as the file has them, not yet oriented. Throws Error if the file is damaged.
   template <typename T>
@@ -87,6 +89,7 @@ class OpenImage {
   void ChoosePage();
   void LookForInks(OIIO::ImageSpec config);
   void CheckRead(bool is_read);
+  void CheckTail(bool may_be_black);
   template <typename T>
   Raster<T> ReadJpegInksAs();
 

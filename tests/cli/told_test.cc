@@ -229,6 +229,64 @@ TEST(Told, ALensThatSuitsNoPicture) {
   EXPECT_THAT(run.err, HasSubstr("upright.lens: a 0.667 suits no picture here (s1 is 1200 x 800"));
 }
 
+TEST(Told, WhyNoPhotographIsLeft) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1", "s2"});
+  WriteAll(scene / "images/s2.jpg", "no picture");
+  const ProgramRun run = RunProgram(
+      {"run", scene.string(), "-o", (work / "out").string(), "--exclude", "s1", "--dry-run"});
+  EXPECT_THAT(run.err, HasSubstr("since the others cannot be read:"));
+  EXPECT_THAT(run.err, HasSubstr("s2.jpg: cannot read this as an image"));
+}
+
+TEST(Told, WhatCheckFoundThoughNoOverlayCanBeWritten) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1"});
+  fs::create_directories(work / "out/s1.jpg/in the way");
+  const ProgramRun check = RunProgram({"check", scene.string(), "-o", (work / "out").string()});
+  EXPECT_EQ(check.status, 1);
+  EXPECT_THAT(check.out, HasSubstr("108 points, 70 faces"));
+  EXPECT_THAT(check.out, HasSubstr("overlays are not whole: "));
+}
+
+TEST(Told, AFileInPlaceOfItsFolderAndALinkToNothing) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1"});
+  EXPECT_THAT(RunProgram({"check", (scene / "model.osu").string()}).out,
+              HasSubstr("a file, not a scene folder"));
+  fs::create_directory(scene / "masks");
+  fs::create_symlink("nowhere.png", scene / "masks/s1.png");
+  EXPECT_THAT(RunProgram({"check", scene.string()}).out,
+              HasSubstr("s1.png: is a link to a file that is not there"));
+}
+
+TEST(Told, AThumbnailInPlaceOfAPhotograph) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1"});
+  fs::remove(scene / "images/s1.jpg");
+  WriteAll(scene / "images/s1.ppm", "P6 3 2 255\n" + std::string(18, '\x80'));
+  EXPECT_THAT(RunProgram({"check", scene.string()}).out, HasSubstr("has only 3 x 2 pixels"));
+}
+
+TEST(Told, AStandardDeviationLargerThanTheBuilding) {
+  const TemporaryFolder work;
+  const fs::path scene = work / "scene";
+  CopyBrick(scene, {"s1"});
+  EXPECT_THAT(RunProgram({"register",
+                          scene.string(),
+                          "-o",
+                          (work / "out").string(),
+                          "--dry-run",
+                          "--sigma-position",
+                          "1000"})
+                  .err,
+              HasSubstr("--sigma-position 1000: so many metres are more than the whole building"));
+}
+
 TEST(Told, AWrongUnitBeforeTheWorkBegins) {
   const TemporaryFolder work;
   const fs::path scene = work / "scene";

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/formats/image_io.h"
 
+#include "scene/formats/ignore_mask.h"
 #include "scene/formats/view_io.h"
 #include "scene/srgb.h"
 #include "tests/scene/formats/colour_ramp.h"
@@ -243,6 +244,16 @@ TEST_P(CutShortTest, IsAnErrorWhereverItIsCut) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, CutShortTest, testing::Values(".jpg", ".png", ".tif", ".exr"));
+
+// An interrupted copy; raw pixels may be black, and masks often are.
+TEST(ReadImages, AFileThatEndsInZerosIsTold) {
+  const TemporaryFolder work;
+  const std::filesystem::path file = work.Write(
+      "half.ppm", "P6 40 40 255\n" + std::string(2400, '\x80') + std::string(2400, '\0'));
+  EXPECT_THAT(InspectImage(file).warnings,
+              testing::ElementsAre(testing::HasSubstr("ends in zeros, the last 50 %")));
+  EXPECT_FALSE(ReadIgnoreMask(file, {40, 40}).values.empty());
+}
 
 TEST(WriteImages, RefuseWhatCannotBe) {
   const TemporaryFolder folder;
