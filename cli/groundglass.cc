@@ -74,6 +74,15 @@ int RunGroundglass(int argc, char** argv) {
     words.push_back("--help");
   }
   const bool as_json = std::find(words.begin(), words.end(), "--json") != words.end();
+  // Most often a shell's variable that is not set; an option would take it for none.
+  const auto empty = std::find(words.begin(), words.end(), "");
+  if (empty != words.end()) {
+    const std::string before = empty == words.begin() ? "" : " after " + *(empty - 1);
+    return Fail(
+        kExitWrongUsage,
+        "an empty word on the command line" + before + "; leave it out, or say what is meant",
+        as_json);
+  }
   if (const auto unknown = FindUnknownCommand(app, words)) {
     return Fail(kExitWrongUsage, WithoutProgramName(*unknown), as_json);
   }

@@ -66,11 +66,13 @@ std::vector<Drawing> MakeElevations(const ElevationArguments& arguments,
 
 Drawing MakeCut(const std::string& text, const PolygonModel& model, const DrawingOptions& options) {
   if (text.starts_with("z=")) {
-    if (const auto height = ParseNumber(text.substr(2))) return MakePlan(model, *height, options);
+    const auto height = ParseNumber(text.substr(2));
+    if (height && std::isfinite(*height)) return MakePlan(model, *height, options);
   }
   std::vector<double> numbers;
   for (const std::string& word : SplitWords(text)) {
-    if (const auto number = ParseNumber(word)) numbers.push_back(*number);
+    const auto number = ParseNumber(word);
+    if (number && std::isfinite(*number)) numbers.push_back(*number);
   }
   if (numbers.size() != 4) {
     throw Error(

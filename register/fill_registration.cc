@@ -12,7 +12,7 @@ namespace groundglass {
 namespace {
 
 // As many as can be told apart where they are drawn ten times enlarged.
-constexpr double kResidualPiece_widths = 0.04;
+constexpr double kResidualPieceWidths = 0.04;
 
 double VertexSigmaPx(const PolygonModel& model,
                      const ParameterProjection& projection,
@@ -64,7 +64,7 @@ void FillRegistration(const JointSolution& solution,
     registration.robust_sigma_px = spread->robust_sigma_px * to_photograph;
   }
   registration.residuals =
-      MeanResiduals(solution.residuals, kResidualPiece_widths * prior.width_px, to_photograph);
+      MeanResiduals(solution.residuals, kResidualPieceWidths * prior.width_px, to_photograph);
   registration.moved_px =
       to_photograph *
       MeanDisplacementPx(points_in_world, prior.ProjectionAt(CameraParameters::Zero()), projection);

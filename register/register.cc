@@ -13,6 +13,7 @@
 #include "scene/formats/image_io.h"
 #include "scene/formats/select_photographs.h"
 #include "scene/formats/tag_corners.h"
+#include "scene/text.h"
 
 #include <tbb/parallel_for.h>
 

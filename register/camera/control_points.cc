@@ -15,6 +15,23 @@
 #include <set>
 
 namespace groundglass {
+namespace {
+
+bool AreOnOneLine(const std::vector<ControlPoint>& points, const std::string& photograph) {
+  constexpr double kThinShare = 1e-3;  // of the line's length, across it
+  std::vector<Eigen::Vector3d> places;
+  for (const ControlPoint& point : points) {
+    if (point.photograph == photograph) places.push_back(point.point_in_world);
+  }
+  if (places.size() < 3) return false;
+  const auto distance = [&](const Eigen::Vector3d& place) { return (place - places[0]).norm(); };
+  const Eigen::Vector3d along = *std::ranges::max_element(places, {}, distance) - places[0];
+  return std::all_of(places.begin(), places.end(), [&](const Eigen::Vector3d& place) {
+    return along.cross(place - places[0]).norm() <= kThinShare * along.squaredNorm();
+  });
+}
+
+}  // namespace
 
 std::vector<ControlPoint> ReadControlPoints(const std::filesystem::path& file) {
   constexpr std::array<const char*, 6> kNumbers = {"x_px", "y_px", "x", "y", "z", "sigma_px"};
@@ -104,6 +121,11 @@ void CheckControlPoints(const std::filesystem::path& file,
                   of + " is at " + FormatNumber(point.image_px.x()) + " " +
                       FormatNumber(point.image_px.y()) + " pixels, outside its picture of " +
                       FormatNumber(size.x()) + " x " + FormatNumber(size.y()));
+    }
+    if (AreOnOneLine(points, point.photograph)) {
+      throw Error(file,
+                  "the points of " + Quote(point.photograph) +
+                      " lie on one line, about which its camera could turn; add one beside it");
     }
   }
 }

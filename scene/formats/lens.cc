@@ -7,6 +7,7 @@
 #include "scene/formats/image_kind.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
+#include "scene/view_tag.h"
 
 #include <array>
 #include <cmath>
@@ -103,6 +104,21 @@ Lens ReadLens(const std::filesystem::path& file) {
   }
   if (!(lens.aspect > 0)) {
     throw Error(file, line_of_key["a"], "key 'a': aspect (width / height) must be above 0");
+  }
+  // What no view file may say, no lens file may.
+  ViewTag tag;
+  tag.lookat_in_site = {0, 1, 0};
+  tag.view_angle_deg = lens.view_angle_deg;
+  tag.aspect = lens.aspect;
+  tag.shift_x = lens.shift_x;
+  tag.shift_y = lens.shift_y;
+  tag.k1 = lens.k1;
+  tag.k2 = lens.k2;
+  tag.k3 = lens.k3;
+  tag.p1 = lens.p1;
+  tag.p2 = lens.p2;
+  if (const std::optional<TagFault> fault = FindTagFault(tag)) {
+    throw Error(file, line_of_key[fault->key], "key " + Quote(fault->key) + ": " + fault->message);
   }
   return lens;
 }

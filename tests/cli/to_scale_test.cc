@@ -53,6 +53,8 @@ TEST(ToScale, WhatCannotBeMeantIsNamed) {
   const ProgramRun section = RunProgram({"render", kHall, "--section", "1,2,3", "-o", out});
   EXPECT_EQ(section.status, 1);
   EXPECT_THAT(section.err, HasSubstr("is neither x,y,x,y"));
+  EXPECT_THAT(RunProgram({"render", kHall, "--section", "z=nan", "-o", out}).err,
+              HasSubstr("is neither x,y,x,y"));
   const ProgramRun layers =
       RunProgram({"render", kHall, "--elevation", "south", "--also", "layers", "-o", out});
   EXPECT_EQ(layers.status, 1);

@@ -149,6 +149,13 @@ TEST(Usage, WrongUsageEndsWithTwo) {
   EXPECT_EQ(RunProgram({"register", "scene", "-o", "out", "--unit", "furlong"}).status, 2);
 }
 
+// A shell's variable that is not set.
+TEST(Usage, AnEmptyWordIsNoNumberAndNoFolder) {
+  const ProgramRun run = RunProgram({"register", "scene", "-o", "out", "--sigma-position", ""});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("an empty word on the command line after --sigma-position"));
+}
+
 TEST(Usage, MissingInputIsOneLineAndOne) {
   const TemporaryFolder work;
   const std::string nowhere = (work / "nowhere").string();
