@@ -105,6 +105,15 @@ Lens ReadLens(const std::filesystem::path& file) {
   if (!(lens.aspect > 0)) {
     throw Error(file, line_of_key["a"], "key 'a': aspect (width / height) must be above 0");
   }
+  constexpr double kMostK1 = 3;  // fisheye lenses reach half of it
+  if (std::abs(lens.k1) > kMostK1) {
+    throw Error(
+        file,
+        line_of_key["k1"],
+        "key 'k1': no lens has a distortion of " + FormatNumber(lens.k1) +
+            "; expected one for distances from the axis in focal lengths, -0.1 for a common "
+            "wide lens");
+  }
   // What no view file may say, no lens file may.
   ViewTag tag;
   tag.lookat_in_site = {0, 1, 0};

@@ -92,8 +92,8 @@ TEST(LensFile, BadOnesGiveOneLine) {
               HasSubstr("key 'sigma_v': a standard deviation must not be negative"));
   EXPECT_THAT(message("v 190 a 1.5"), HasSubstr("f.lens:1: key 'v': view angle must lie"));
   EXPECT_THAT(message("v 50\na 0"), HasSubstr("f.lens:2: key 'a': aspect"));
-  EXPECT_THAT(message("v 50 a 1.5\nk1 50"),
-              HasSubstr("f.lens:2: key 'k1': no lens has a distortion of 50"));
+  EXPECT_THAT(message("v 50 a 1.5\nk1 5"),
+              HasSubstr("f.lens:2: key 'k1': no lens has a distortion of 5"));
 }
 
 TEST(FormatCoverage, CountsFacesFromOneAsPeopleDo) {
