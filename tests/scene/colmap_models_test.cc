@@ -170,8 +170,8 @@ TEST(ColmapBinary, IsReadAsTheTextIs) {
 }
 
 TEST(ColmapBinary, CutAnywhereItIsAOneLineError) {
-  const std::string cameras = ReadTextFile(kBinary + "/cameras.bin");
-  const std::string images = ReadTextFile(kBinary + "/images.bin");
+  const std::string cameras = ReadFileBytes(kBinary + "/cameras.bin");
+  const std::string images = ReadFileBytes(kBinary + "/images.bin");
   const TemporaryFolder folder;
   for (const bool cut_images : {false, true}) {
     const std::string& whole = cut_images ? images : cameras;
@@ -191,12 +191,12 @@ TEST(ColmapBinary, CutAnywhereItIsAOneLineError) {
 
 TEST(ColmapBinary, CountsAndKindsThatCannotBeAreErrors) {
   const TemporaryFolder folder;
-  std::string cameras = ReadTextFile(kBinary + "/cameras.bin");
-  folder.Write("images.bin", ReadTextFile(kBinary + "/images.bin"));
+  std::string cameras = ReadFileBytes(kBinary + "/cameras.bin");
+  folder.Write("images.bin", ReadFileBytes(kBinary + "/images.bin"));
   std::memset(cameras.data(), 0xff, 8);  // 2^64 - 1 cameras
   folder.Write("cameras.bin", cameras);
   EXPECT_THAT(ThrownMessage([&] { ReadColmapModel(folder.path()); }), HasSubstr("cut short"));
-  cameras = ReadTextFile(kBinary + "/cameras.bin");
+  cameras = ReadFileBytes(kBinary + "/cameras.bin");
   cameras[12] = 99;  // the first camera's model
   folder.Write("cameras.bin", cameras);
   EXPECT_THAT(ThrownMessage([&] { ReadColmapModel(folder.path()); }),
