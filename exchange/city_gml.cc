@@ -2,7 +2,9 @@
 // Part of Groundglass.
 #include "exchange/city_gml.h"
 
+#include "exchange/geographic_systems.h"
 #include "exchange/xml_reader.h"
+#include "scene/degrees.h"
 #include "scene/error.h"
 #include "scene/mend_faces.h"
 #include "scene/text.h"
@@ -218,22 +220,6 @@ void JoinPoints(PolygonModel& model) {
   model.points_in_world = std::move(joined);
 }
 
-int EpsgCode(const std::string& coordinate_system) {
-  const std::string lower = LowerCase(coordinate_system);
-  const size_t end = lower.find_last_not_of("0123456789");
-  const std::string number = end == std::string::npos ? lower : lower.substr(end + 1);
-  if (lower.find("epsg") == std::string::npos || number.empty() || number.size() > 5) return 0;
-  return std::stoi(number);
-}
-
-// The geographic systems that city models are met in: WGS 84, ETRS89, NAD83, with heights or not.
-bool IsInDegrees(const std::string& coordinate_system) {
-  constexpr std::array kGeographic = {4326, 4979, 4258, 4937, 4269, 4957, 6318, 6319};
-  return coordinate_system.find("CRS84") != std::string::npos ||
-         std::find(kGeographic.begin(), kGeographic.end(), EpsgCode(coordinate_system)) !=
-             kGeographic.end();
-}
-
 // The state planes of the USA in survey feet, by their numbers in EPSG's register (NAD83, its HARN,
 // NSRS2007 and 2011 versions), or by name.
 bool IsInFeet(const std::string& coordinate_system) {
@@ -241,10 +227,12 @@ bool IsInFeet(const std::string& coordinate_system) {
   if (lower.find("ftus") != std::string::npos || lower.find("foot") != std::string::npos) {
     return true;
   }
-  const int code = EpsgCode(coordinate_system);
-  return (code >= 2225 && code <= 2272) || (code >= 2276 && code <= 2280) ||
-         (code >= 2283 && code <= 2289) || (code >= 3417 && code <= 3438) ||
-         (code >= 3441 && code <= 3459);
+  const std::vector<int> codes = EpsgCodes(coordinate_system);
+  return std::any_of(codes.begin(), codes.end(), [](int code) {
+    return (code >= 2225 && code <= 2272) || (code >= 2276 && code <= 2280) ||
+           (code >= 2283 && code <= 2289) || (code >= 3417 && code <= 3438) ||
+           (code >= 3441 && code <= 3459);
+  });
 }
 
 }  // namespace
@@ -257,11 +245,12 @@ ModelReading ReadCityGml(const std::filesystem::path& file) {
   ModelReading reading;
   PolygonModel& model = reading.model;
   model.unit = LengthUnit::kMetre;
-  if (IsInDegrees(reader.coordinate_system())) {
-    throw Error(file,
-                reader.coordinate_system() +
-                    " counts in degrees of latitude and longitude, of which no model can be made; "
-                    "export it in metres, in a projected system (UTM, Gauss-Krueger)");
+  if (IsGeographic(reader.coordinate_system())) {
+    throw Error(
+        file,
+        reader.coordinate_system() +
+            " counts in degrees of latitude and longitude, of which no model can be made; " +
+            kProjectIt);
   }
   if (IsInFeet(reader.coordinate_system())) {
     model.unit = LengthUnit::kUsSurveyFoot;
@@ -292,6 +281,12 @@ ModelReading ReadCityGml(const std::filesystem::path& file) {
     lines.push_back(polygon.line);
   }
   JoinPoints(model);
+  if (const Box bounds = ComputeBounds(model); SeemInDegrees(bounds)) {
+    throw Error(file,
+                "its coordinates are degrees of latitude and longitude, it seems, of which no "
+                "model can be made: " +
+                    DescribeDegrees(bounds) + "; " + kProjectIt);
+  }
   std::vector<FaceTexture> no_textures;
   MendedFaces mended = MendFaces(file, lines, model, no_textures);
   WarnOfFaults(file, lines, mended);

@@ -85,6 +85,7 @@ std::vector<Advice> FindModelOddities(const Scene& scene, const ModelOptions& op
   const Box bounds = ComputeBuildingBounds(scene.model);
   const AdviceContext context{
       scene, options, bounds, visibility, FindStandpoints(scene, bounds, visibility), found};
+  if (AdviseOnDegrees(context)) return found;
   // Such cameras need not be held by people, who tell the unit.
   AdviseOnModel(context, Misreading::kOther);
   const PictureJudge judge(scene);
@@ -105,6 +106,8 @@ std::vector<Advice> FindOddities(const Scene& scene,
   const Box bounds = ComputeBuildingBounds(scene.model);
   const AdviceContext context{
       scene, options, bounds, visibility, FindStandpoints(scene, bounds, visibility), found};
+  // Nothing else means anything then.
+  if (AdviseOnDegrees(context)) return found;
   std::optional<PictureJudge> pictures;
   if (with_pictures) pictures.emplace(scene);
   const PictureJudge* judge = with_pictures ? &*pictures : nullptr;

@@ -246,6 +246,45 @@ TEST(CityGml, StatePlanesAreInFeet) {
   EXPECT_THAT(reading.warnings, testing::Contains(HasSubstr("US survey feet")));
 }
 
+TEST(CityGml, SystemsOfDegreesAreRefused) {
+  const TemporaryFolder folder;
+  for (const char* degrees : {"EPSG:4326",
+                              "EPSG:6668",
+                              "http://www.opengis.net/def/crs/EPSG/0/6697",
+                              "urn:ogc:def:crs:EPSG:9.8:7844",
+                              "EPSG:7843",
+                              "EPSG:4258+5621",
+                              "urn:ogc:def:crs,crs:EPSG::4258,crs:EPSG::5621",
+                              "http://www.opengis.net/gml/srs/epsg.xml#4979",
+                              "urn:ogc:def:crs:OGC:1.3:CRS84"}) {
+    EXPECT_THAT(
+        ThrownMessage([&] { ReadCity(folder, GmlPolygon(kSquare), degrees); }),
+        testing::AllOf(HasSubstr(std::string(degrees) + " counts in degrees"), HasSubstr("QGIS")));
+  }
+  // Their neighbours in the register count in metres.
+  for (const char* metres : {"EPSG:25832",
+                             "EPSG:4647",
+                             "EPSG:4978",
+                             "EPSG:6669",
+                             "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837",
+                             "EPSG:31467+5783"}) {
+    EXPECT_EQ(ReadCity(folder, GmlPolygon(kSquare), metres).model.faces.size(), 1u) << metres;
+  }
+}
+
+TEST(CityGml, DegreesAreToldByTheirNumbersToo) {
+  const TemporaryFolder folder;
+  const std::string wall =
+      "35.65 139.74 0 35.6501 139.74 0 35.6501 139.74 8 35.65 139.74 8 35.65 139.74 0";
+  EXPECT_THAT(
+      ThrownMessage([&] { ReadCity(folder, GmlPolygon(wall), ""); }),
+      testing::AllOf(HasSubstr("are degrees of latitude and longitude, it seems"),
+                     HasSubstr("x from 35.65 to 35.6501, y from 139.74 to 139.74, 8 high")));
+  // A mast near the origin, eight centimetres thick.
+  const std::string mast = "35 39 0 35.08 39 0 35.08 39 8 35 39 8 35 39 0";
+  EXPECT_EQ(ReadCity(folder, GmlPolygon(mast), "").model.faces.size(), 1u);
+}
+
 TEST(CityGml, AnotherXmlIsAnErrorThatSaysSo) {
   const TemporaryFolder folder;
   EXPECT_THAT(ThrownMessage([&] { ReadCityGml(folder.Write("a.gml", "<a/>")); }),

@@ -47,6 +47,18 @@ TEST(MisreadTags, HeightsThatCountDownwardsAreTold) {
   EXPECT_THAT(FormatAdvice(found[0]), HasSubstr("z counts downwards in the tags"));
 }
 
+TEST(MisreadTags, DegreesOfLongitudeAndLatitudeAreToldAlone) {
+  Scene scene = ReadHall();
+  scene.model_file = "hall/model.obj";
+  for (Eigen::Vector3d& point : scene.model.points_in_world) {
+    point = {11.5 + 4e-6 * point.x(), 48.1 + 2.7e-6 * point.y(), 500 + 0.3048 * point.z()};
+  }
+  EXPECT_THAT(ToldOf(scene),
+              ElementsAre(testing::AllOf(HasSubstr("hall/model.obj: its x and y are degrees"),
+                                         HasSubstr("x from 11."),
+                                         HasSubstr("QGIS"))));
+}
+
 TEST(MisreadTags, LookAtPointsOfAnotherZeroAreTold) {
   Scene scene = ReadHall();
   for (Photograph& photograph : scene.photographs) photograph.tag.lookat_in_site.z() += 60;
