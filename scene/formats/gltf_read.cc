@@ -10,6 +10,7 @@
 #include "scene/formats/gltf_textures.h"
 #include "scene/formats/material_library.h"
 #include "scene/formats/mesh_io.h"
+#include "scene/formats/why_no_faces.h"
 #include "scene/text.h"
 
 #include <algorithm>
@@ -60,11 +61,12 @@ class GltfReader {
     ReadNotes();
     const int scene_index = gltf_.defaultScene >= 0 ? gltf_.defaultScene : 0;
     if (gltf_.scenes.empty()) {
-      Fail("it has no scene");
+      Fail("it has no scene, which says what of it is shown; export it with what is visible");
     }
     for (const int node : At(gltf_.scenes, scene_index, "scene").nodes) {
       AppendNode(node, Eigen::Matrix4d::Identity(), 0);
     }
+    if (result_.model.faces.empty()) throw Error(file_, WhyNoGltfFaces(gltf_, scene_index));
     RestoreOrder(own_order_, result_, materials_);
     if (pages != MeshPages::kNone) {
       TellUnreadTextures();

@@ -26,16 +26,15 @@ struct MeshReading {
   std::vector<int> left_out = {};  // the numbers of faces with a corner that is no point
 };
 
-// PLY or STL: polygons kept, coordinates as precise as the file has them; identical points are
-// joined.
-MeshReading ReadPly(const std::filesystem::path& file);
-MeshReading ReadStl(const std::filesystem::path& file);
-
 enum class MeshPages {
   kNone,
   kPictures,            // one that is missing or damaged is a warning, and its faces are grey
   kPicturesAndColours,  // plain colours of materials on a page too (coloured_model_io.h)
 };
+// PLY or STL: polygons kept, coordinates as precise as the file has them; identical points are
+// joined. Pictures and colours of a PLY are not read: a warning where pages are wanted.
+MeshReading ReadPly(const std::filesystem::path& file, MeshPages pages);
+MeshReading ReadStl(const std::filesystem::path& file);
 MeshReading ReadTexturedObj(const std::filesystem::path& file, MeshPages pages);
 
 // glTF or GLB in `world`. Lengths are metres in the file; they come in `unit` if it is given, else

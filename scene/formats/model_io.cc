@@ -4,10 +4,11 @@
 
 #include "scene/error.h"
 #include "scene/formats/coloured_model_io.h"
-#include "scene/formats/image_kind.h"
 #include "scene/formats/mesh_io.h"
+#include "scene/formats/model_kind.h"
 #include "scene/formats/obj_io.h"
 #include "scene/formats/text_encoding.h"
+#include "scene/formats/why_no_faces.h"
 #include "scene/frames.h"
 #include "scene/mend_faces.h"
 #include "scene/text.h"
@@ -37,6 +38,7 @@ MeshReading ReadMesh(const std::filesystem::path& file,
   const bool is_gltf = extension == ".glb" || extension == ".gltf";
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw Error(file, "no such model file");
+  CheckModelKind(file);
   if (!is_gltf && extension != ".obj" && extension != ".ply" && extension != ".stl") {
     throw Error(
         file,
@@ -51,7 +53,7 @@ MeshReading ReadMesh(const std::filesystem::path& file,
   }
   if (is_gltf) return ReadGltf(file, options.unit, pages);
   if (extension == ".obj") return ReadTexturedObj(file, pages);
-  return extension == ".ply" ? ReadPly(file) : ReadStl(file);
+  return extension == ".ply" ? ReadPly(file, pages) : ReadStl(file);
 }
 
 }  // namespace
@@ -87,17 +89,6 @@ void ApplyModelOptions(const std::filesystem::path& file,
 
 namespace {
 
-// What was downloaded or packed under a model's name is something else.
-std::string WhyNoFaces(const std::filesystem::path& file) {
-  const ImageKind kind = FindImageKind(file);
-  const bool is_archive = kind.description.ends_with("archive");
-  if (is_archive) return "this is " + kind.description + " and no model; " + kind.remedy;
-  if (kind.description == "a web page") {
-    return "this is a web page and no model; save the file that the page offers";
-  }
-  return "this model has no faces";
-}
-
 // Names from an old plan or program would break every file and page that repeats them.
 void NameFacesInUtf8(const std::filesystem::path& file,
                      PolygonModel& model,
@@ -125,6 +116,7 @@ TexturedModelReading ReadAnyModel(const std::filesystem::path& file,
   PolygonModel& model = result.textured.model;
   std::vector<FaceTexture>& textures = result.textured.faces;
   if (extension == ".osu") {
+    CheckModelKind(file);
     ModelReading osu = ReadOsu(file);
     model = std::move(osu.model);
     result.warnings = std::move(osu.warnings);

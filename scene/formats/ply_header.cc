@@ -51,7 +51,7 @@ class HeaderReader {
       const std::string keyword = LowerCase(words[0]);
       if (keyword == "end_header") break;
       if (keyword == "comment" || keyword == "obj_info") {
-        ReadComment(words);
+        ReadComment(line, words);
       } else if (keyword == "format") {
         ReadFormat(words);
         has_format = true;
@@ -84,7 +84,12 @@ class HeaderReader {
     return line;
   }
 
-  void ReadComment(const std::vector<std::string_view>& words) {
+  void ReadComment(std::string_view line, const std::vector<std::string_view>& words) {
+    // As MeshLab and others write; a picture's name may have blanks.
+    if (words.size() > 2 && LowerCase(words[1]) == "texturefile") {
+      const size_t start = static_cast<size_t>(words[2].data() - line.data());
+      header_.pictures.emplace_back(TrimBlanks(line.substr(start)));
+    }
     if (words.size() < 3 || LowerCase(words[1]) != "unit:") return;
     if (const auto unit = FindUnit(words[2])) header_.unit = unit;
   }

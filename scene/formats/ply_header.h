@@ -31,8 +31,9 @@ struct PlyHeader {
   };
   Format format = Format::kAscii;
   std::vector<Element> elements;
-  std::optional<LengthUnit> unit;  // of a "comment unit: m"
-  size_t body = 0;                 // where the elements start in the file
+  std::optional<LengthUnit> unit;     // of a "comment unit: m"
+  std::vector<std::string> pictures;  // of every "comment TextureFile wall.jpg"
+  size_t body = 0;                    // where the elements start in the file
   int body_line = 0;
 };
 

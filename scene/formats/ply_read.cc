@@ -117,7 +117,7 @@ class PlyReader {
   PlyReader(std::string_view bytes, const std::filesystem::path& file)
       : file_(file), header_(ParsePlyHeader(bytes, file)), numbers_(bytes, header_, file) {}
 
-  MeshReading Read() {
+  MeshReading Read(MeshPages pages) {
     if (header_.unit) {
       Model().unit = *header_.unit;
     } else {
@@ -138,15 +138,65 @@ class PlyReader {
     }
     ResolveCorners();
     if (Model().faces.empty()) {
-      throw Error(file_,
-                  Model().points_in_world.empty()
-                      ? "this model has no points"
-                      : "this model has no faces; a cloud of points cannot be textured");
+      throw Error(file_, WhyNoFaces());
     }
+    if (pages != MeshPages::kNone) TellUnreadColours();
     return std::move(reading_);
   }
 
  private:
+  // Pictures and colours are no part of what is read here.
+  void TellUnreadColours() {
+    bool has_texture_points = false;
+    bool has_colours = false;
+    for (const PlyHeader::Element& element : header_.elements) {
+      for (const PlyHeader::Property& property : element.properties) {
+        const std::string& name = property.name;
+        has_texture_points |= name == "texcoord" || name == "texture_u" || name == "u" ||
+                              name == "s" || name == "texnumber";
+        has_colours |= name == "red" || name == "diffuse_red";
+      }
+    }
+    std::string what;
+    if (!header_.pictures.empty()) {
+      what = "its picture " + Quote(header_.pictures.front()) +
+             (header_.pictures.size() > 1
+                  ? " and " + std::to_string(header_.pictures.size() - 1) + " more are"
+                  : " is");
+    } else if (has_texture_points) {
+      what = "its texture is";
+    } else if (has_colours) {
+      what = "the colours of its points or faces are";
+    } else {
+      return;
+    }
+    reading_.warnings.push_back(
+        Error(
+            file_,
+            what +
+                " not read, and its faces are grey; export it as .glb or .obj, with a texture, to "
+                "have them in colour")
+            .what());
+  }
+
+  // What it holds in place of faces.
+  std::string WhyNoFaces() const {
+    const size_t num_points = reading_.textured.model.points_in_world.size();
+    if (num_points == 0) return "this model has no points";
+    std::string held = std::to_string(num_points) + " points";
+    bool has_edges = false;
+    for (const PlyHeader::Element& element : header_.elements) {
+      if (element.name != "edge" || element.count == 0) continue;
+      held = std::to_string(element.count) + (element.count == 1 ? " edge and " : " edges and ") +
+             held;
+      has_edges = true;
+    }
+    return "this model has no faces, but " + held +
+           (has_edges ? "; export it as a mesh, with its faces"
+                      : "; a cloud of points cannot be textured: make a mesh of it first, with "
+                        "CloudCompare or MeshLab");
+  }
+
   PolygonModel& Model() { return reading_.textured.model; }
 
   void SkipProperty(const PlyHeader::Property& property, const std::string& what) {
@@ -301,9 +351,9 @@ class PlyReader {
 
 }  // namespace
 
-MeshReading ReadPly(const std::filesystem::path& file) {
+MeshReading ReadPly(const std::filesystem::path& file, MeshPages pages) {
   const std::string bytes = ReadFileBytes(file);
-  MeshReading reading = PlyReader(bytes, file).Read();
+  MeshReading reading = PlyReader(bytes, file).Read(pages);
   JoinIdenticalPoints(reading.textured.model);
   return reading;
 }

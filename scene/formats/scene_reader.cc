@@ -6,6 +6,7 @@
 #include "scene/formats/ignore_mask.h"
 #include "scene/formats/image_kind.h"
 #include "scene/formats/image_paths.h"
+#include "scene/formats/model_kind.h"
 #include "scene/formats/photograph_name.h"
 #include "scene/formats/same_picture.h"
 #include "scene/formats/scene_folder.h"
@@ -143,12 +144,13 @@ void SceneReader::ReadTheModel() {
     }
     file = found.front();
   }
-  if (LowerCase(file.extension().string()) == ".osu" && fs::is_regular_file(file)) {
-    const std::vector<std::string> faults = FindOsuFaults(ReadTextFile(file), file);
-    for (const std::string& fault : faults) Fault(fault);
-    if (!faults.empty()) return;
-  }
   try {
+    if (LowerCase(file.extension().string()) == ".osu" && fs::is_regular_file(file)) {
+      CheckModelKind(file);
+      const std::vector<std::string> faults = FindOsuFaults(ReadTextFile(file), file);
+      for (const std::string& fault : faults) Fault(fault);
+      if (!faults.empty()) return;
+    }
     ModelReading reading = ReadModel(file, options_.model);
     result_.scene.model = std::move(reading.model);
     std::vector<std::string>& warnings = result_.scene.warnings;
