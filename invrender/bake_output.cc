@@ -7,6 +7,7 @@
 #include "scene/formats/image_io.h"
 #include "scene/formats/photograph_name.h"
 #include "scene/formats/textured_model_io.h"
+#include "scene/text.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
@@ -68,7 +69,12 @@ std::vector<BakePhotograph> SelectPhotographs(const Scene& scene,
     if (photograph) selected.push_back(MakeBakePhotograph(*photograph, camera.camera));
   }
   if (selected.empty()) {
-    throw Error(scene.folder, "no photograph has the name of any of the cameras");
+    std::string which;
+    if (!cameras.empty() && !scene.photographs.empty()) {
+      which = ": the first camera is of " + Quote(cameras.front().name) +
+              ", the first photograph is " + Quote(scene.photographs.front().name);
+    }
+    throw Error(scene.folder, "no photograph has the name of any of the cameras" + which);
   }
   return selected;
 }

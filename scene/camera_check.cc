@@ -21,6 +21,16 @@ bool IsRotation(const Eigen::Matrix3d& matrix) {
          matrix.determinant() > 0;
 }
 
+// As some programs count them: a focal length of few pixels, about a point within the first pixel.
+bool AreSharesOfWidth(const Camera& camera) {
+  constexpr double kLongestFocal = 10;      // a telescope's, as a share of the width
+  constexpr double kNarrowestPicture = 64;  // px; smaller ones may have so short a focal length
+  const auto is_share = [](double center) { return center > 0 && center <= 1; };
+  return camera.width_px >= kNarrowestPicture && camera.focal_x_px < kLongestFocal &&
+         camera.focal_y_px < kLongestFocal && is_share(camera.center_x_px) &&
+         is_share(camera.center_y_px);
+}
+
 }  // namespace
 
 std::string FindSizeFault(double width_px, double height_px) {
@@ -35,6 +45,14 @@ std::string FindCameraFault(const Camera& camera) {
   for (const double focal_px : {camera.focal_x_px, camera.focal_y_px}) {
     if (focal_px > 0 && std::isfinite(focal_px)) continue;
     return "the focal length must be above 0 and finite; here it is " + InWords(focal_px);
+  }
+  if (AreSharesOfWidth(camera)) {
+    return "the focal length " + InWords(camera.focal_x_px) + " and the principal point " +
+           InWords(camera.center_x_px) + ", " + InWords(camera.center_y_px) +
+           " are shares of the picture's sides, it seems, and would be a view angle of nearly 180 "
+           "degrees; expected pixels: multiply them by " +
+           InWords(camera.width_px) + " (and what counts downwards by " +
+           InWords(camera.height_px) + " if it is a share of the height)";
   }
   for (const double center_px : {camera.center_x_px, camera.center_y_px}) {
     if (std::abs(center_px) <= kLongestSidePx) continue;

@@ -57,7 +57,7 @@ GivenCameras MatchColmapModel(const ColmapFiles& files,
   given.files = {files.cameras_file, files.images_file};
   given.warnings = files.warnings;
   const ImagePathFinder finder(image_paths);
-  std::vector<std::string> strays;
+  std::vector<std::string>& strays = given.strays;
   const ColmapReading reading = ReadColmapImages(files);
   for (const NamedCamera& camera : reading.cameras) {
     const std::optional<size_t> image = finder.Find(camera.name);

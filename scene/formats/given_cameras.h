@@ -21,6 +21,7 @@ struct GivenCameras {
   std::map<size_t, NamedCamera> camera_of_image;
   // By index of the photograph: why the model has no camera for it.
   std::map<size_t, std::vector<std::string>> faults_of_image;
+  std::vector<std::string> strays;    // the model's images without a photograph
   std::vector<std::string> warnings;  // images without a photograph, photographs without an image
   std::vector<std::string> faults;    // two images for one photograph
 };

@@ -204,7 +204,13 @@ void SceneReader::ReadGivenCameras(const ColmapFiles& files, const FilesByStem& 
     Warn(files.images_file, message + " " + change);
   }
   if (given.camera_of_image.empty() && given.faults_of_image.empty()) {
-    Fault(Error(files.images_file, "no photograph in images/ has the name of any of its images")
+    std::string which;
+    if (!given.strays.empty() && !paths.empty()) {
+      which = ": its first is " + Quote(given.strays.front()) + ", and the first in images/ is " +
+              Quote(paths.front()) + "; give both the same names";
+    }
+    Fault(Error(files.images_file,
+                "no photograph in images/ has the name of any of its images" + which)
               .what());
   }
 }

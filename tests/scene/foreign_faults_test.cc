@@ -60,6 +60,20 @@ TEST(CameraCheck, NamesTheFirstFault) {
   EXPECT_THAT(fault([&](Camera& c) { c.cam_from_world.translation.y() = nan; }),
               HasSubstr("place"));
   EXPECT_THAT(fault([](Camera& c) { c.cam_from_world.rotation *= -1; }), HasSubstr("no rotation"));
+  const auto shares = [](Camera& c) {
+    c.focal_x_px = c.focal_y_px = 0.97;
+    c.center_x_px = c.center_y_px = 0.5;
+  };
+  EXPECT_THAT(fault(shares),
+              HasSubstr("0.97 and the principal point 0.5, 0.5 are shares of the picture's sides, "
+                        "it seems, and would be a view angle of nearly 180 degrees; expected "
+                        "pixels: multiply them by 1200 "));
+  const auto few_pixels = [&](Camera& c) {
+    shares(c);
+    c.width_px = 12;
+    c.height_px = 8;
+  };
+  EXPECT_EQ(fault(few_pixels), "");
   EXPECT_THAT(FindSizeFault(12.5, 800), HasSubstr("an image of 12.5 x 800 pixels"));
 }
 

@@ -144,8 +144,11 @@ TEST(ReadScene, WhatHoldsNoCamerasIsAnError) {
   options.views = folder / "elsewhere";
   folder.Write("elsewhere/cameras.txt", "1 PINHOLE 30 20 40 40 15 10\n");
   folder.Write("elsewhere/images.txt", "1" + std::string(kPose) + "other.jpg\n\n");
-  EXPECT_THAT(ThrownMessage([&] { ReadScene(folder.path(), options); }),
-              HasSubstr("no photograph in images/ has the name of any of its images"));
+  EXPECT_THAT(
+      ThrownMessage([&] { ReadScene(folder.path(), options); }),
+      AllOf(HasSubstr("no photograph in images/ has the name of any of its images: its first is "
+                      "'other.jpg', and the first in images/ is 'east/0001.png'"),
+            HasSubstr("give both the same names")));
 }
 
 }  // namespace
