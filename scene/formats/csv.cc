@@ -3,11 +3,13 @@
 #include "scene/formats/csv.h"
 
 #include "scene/error.h"
+#include "scene/formats/image_kind.h"
 #include "scene/formats/text_encoding.h"
 #include "scene/formats/view_io.h"
 #include "scene/text.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace groundglass {
 
@@ -27,7 +29,54 @@ namespace {
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Blanks that people and spreadsheets put into numbers and names: as plain ones.
+constexpr const char* kSaveAsCsv =
+    "open it in a spreadsheet and save it as CSV (Save As, CSV UTF-8)";
+
+// What a file is in place of a table in text, and what to do; empty if it may be one. `text`: its
+// bytes as UTF-8.
+std::string WhyNoTable(const std::filesystem::path& file,
+                       std::string_view bytes,
+                       std::string_view text) {
+  using namespace std::string_view_literals;
+  if (bytes.starts_with("PK\x03\x04"sv)) {
+    return std::string(
+               "this is an Excel or LibreOffice file, or another zip archive, and no text; ") +
+           kSaveAsCsv;
+  }
+  if (bytes.starts_with("\xD0\xCF\x11\xE0"sv)) {
+    return std::string("this is an Excel file (.xls) and no text; ") + kSaveAsCsv;
+  }
+  const bool is_utf32 = bytes.starts_with("\xFF\xFE\0\0"sv) || bytes.starts_with("\0\0\xFE\xFF"sv);
+  const bool is_unmarked_utf32 =
+      bytes.size() >= 8 && (bytes.substr(1, 3) == "\0\0\0"sv || bytes.substr(0, 3) == "\0\0\0"sv) &&
+      (bytes.substr(5, 3) == "\0\0\0"sv || bytes.substr(4, 3) == "\0\0\0"sv) &&
+      bytes.find_first_not_of('\0') < 4;
+  if (is_utf32 || is_unmarked_utf32) return "this is text in UTF-32; save it as UTF-8";
+  const size_t zero = text.find('\0');
+  if (zero != std::string_view::npos || text.starts_with("%PDF") || text.starts_with("<")) {
+    const ImageKind kind = FindImageKind(file);
+    if (kind.description == "a web page") {
+      return "this is a web page and no table; save the table itself, as CSV";
+    }
+    if (kind.description == "a file of zeros")
+      return "this is " + kind.description + "; " + kind.remedy;
+    if (kind.description == "a PDF" || kind.IsImage()) {
+      return "this is " + kind.description + " and no table in text; " + kSaveAsCsv;
+    }
+  }
+  if (zero == std::string_view::npos) return "";
+  const auto line =
+      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n');
+  const bool only_zeros_follow = text.find_first_not_of('\0', zero) == std::string_view::npos;
+  return (only_zeros_follow ? "from line " : "line ") + std::to_string(line + 1) +
+         (only_zeros_follow
+              ? " on it holds nothing but zeros (NUL), as after a copy that was interrupted: lines "
+                "may be lost; copy it again, or save it anew"
+              : " holds zeros (NUL), which no text has; save it anew as CSV in UTF-8");
+}
+
+// Blanks that people and spreadsheets put into numbers and names: as plain ones; so are bytes that
+// no terminal should be sent.
 std::string WithPlainBlanks(std::string_view text) {
   std::string plain;
   for (size_t at = 0; at < text.size();) {
@@ -42,7 +91,9 @@ std::string WithPlainBlanks(std::string_view text) {
       plain += '-';
       at += 3;
     } else {
-      plain += text[at++];
+      const char c = text[at++];
+      const bool is_control = (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == '\x7F';
+      plain += is_control ? ' ' : c;
     }
   }
   return plain;
@@ -215,7 +266,10 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::vector<std::string>* 
     if (!faults) throw error;
     faults->push_back(error.what());
   };
-  const Utf8Text utf8 = Utf8FromBytes(ReadFileBytes(file));
+  const std::string bytes = ReadFileBytes(file);
+  const Utf8Text utf8 = Utf8FromBytes(bytes);
+  const std::string why_not = WhyNoTable(file, bytes, utf8.text);
+  if (!why_not.empty()) throw Error(file, why_not);
   if (utf8.is_guessed) {
     warnings_.push_back(
         Error(file, "is not UTF-8; it is read as Windows-1252 (Latin-1), look at its names")
@@ -246,6 +300,12 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::vector<std::string>* 
   if (records.empty()) return;
 
   header_line_ = records[0].line;
+  if (records[0].fields.size() == 1 && records[0].fields[0].find(separator_) != std::string::npos) {
+    throw Error(file,
+                header_line_,
+                "this line stands in quotes as a whole, and so is one column; save the table with "
+                "its fields in columns of their own, or take the quotes away");
+  }
   for (const std::string& name : records[0].fields) header_.push_back(LowerCase(name));
   while (!header_.empty() && header_.back().empty()) header_.pop_back();
   records.erase(records.begin());

@@ -26,9 +26,10 @@ struct CsvRow {
 
 class CsvTable {
  public:
-  // Throws Error FILE:LINE: for quotes that are not closed, or a row with more or fewer fields than
-  // the header has, unless `faults` is given: then the first are lines there, and the second are
-  // kept with their fault.
+  // Throws Error where it is no text (a spreadsheet's own file, UTF-32, zeros), or each line is one
+  // field in quotes; and FILE:LINE: for quotes that are not closed, or a row with more or fewer
+  // fields than the header has, unless `faults` is given: then the first are lines there, and the
+  // second are kept with their fault.
   CsvTable(const std::filesystem::path& file, std::vector<std::string>* faults = nullptr);
 
   const std::vector<std::string>& header() const { return header_; }  // in lower case

@@ -115,6 +115,7 @@ void SceneReader::ReadTable(const fs::path& table, const FilesByStem& images) {
     }
   } catch (const Error& read_error) {
     Fault(read_error.what());
+    for (const auto& [name, file] : images) known_names_.emplace(name, table);
   }
 }
 

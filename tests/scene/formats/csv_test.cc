@@ -100,6 +100,34 @@ TEST(Csv, FaultsNameTheLine) {
   EXPECT_TRUE(Table("\n \n").header().empty());
 }
 
+TEST(Csv, WhatIsNoTextSaysWhatItIs) {
+  const auto message = [](const std::string& bytes) {
+    return ThrownMessage([&] { Table(bytes); });
+  };
+  EXPECT_THAT(message("PK\x03\x04\x14\0\x06\0[Content_Types].xml"s),
+              HasSubstr("t.csv: this is an Excel or LibreOffice file, or another zip archive, and "
+                        "no text; open it in a spreadsheet and save it as CSV"));
+  EXPECT_THAT(message("\xD0\xCF\x11\xE0 old"), HasSubstr("an Excel file (.xls)"));
+  EXPECT_THAT(message("%PDF-1.7\n1 0 obj"), HasSubstr("this is a PDF"));
+  EXPECT_THAT(message("<html><table></table></html>"), HasSubstr("this is a web page"));
+  for (const bool is_marked : {true, false}) {
+    std::string utf32 = is_marked ? "\xFF\xFE\0\0"s : "";
+    for (const char c : "image,x\ns1,2\n"s) utf32 += {c, '\0', '\0', '\0'};
+    EXPECT_THAT(message(utf32), HasSubstr("in UTF-32; save it as UTF-8"));
+  }
+  EXPECT_THAT(message("\"image,x,y\"\n\"s1,1,2\"\n"),
+              HasSubstr("t.csv:1: this line stands in quotes as a whole"));
+}
+
+TEST(Csv, ZerosAndControlBytesAreNotPassedOn) {
+  EXPECT_THAT(ThrownMessage([] { Table("image,x\ns1,2\ns2,\0\0\0\0"s); }),
+              HasSubstr("t.csv: from line 3 on it holds nothing but zeros (NUL), as after a copy"));
+  EXPECT_THAT(ThrownMessage([] { Table("image,x\ns1,\0002\ns2,3"s); }),
+              HasSubstr("t.csv: line 2 holds zeros (NUL), which no text has"));
+  const CsvTable table = Table("image,x\n\x1B[2Js1\x07,2\n");
+  EXPECT_EQ(table.rows()[0].fields[0], "[2Js1");
+}
+
 TEST(CsvField, IsQuotedWhereItMustBe) {
   EXPECT_EQ(CsvField("tower, north"), "\"tower, north\"");
   EXPECT_EQ(CsvField("the \"old\" wall"), "\"the \"\"old\"\" wall\"");
