@@ -13,17 +13,31 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <string>
+#include <string_view>
 
 namespace groundglass {
 namespace {
 
+// "3-4" as a word processor writes it, with a dash or a minus.
+std::string WithPlainDashes(std::string word) {
+  for (const std::string_view dash : {"\xE2\x80\x93", "\xE2\x80\x94", "\xE2\x88\x92"}) {
+    for (size_t at = word.find(dash); at != std::string::npos; at = word.find(dash)) {
+      word.replace(at, dash.size(), "-");
+    }
+  }
+  return word;
+}
+
 // The faces that one word means; none if it means nothing.
-std::vector<int> FacesOfWord(const PolygonModel& model, const std::string& word) {
+std::vector<int> FacesOfWord(const PolygonModel& model, const std::string& written) {
+  std::string word = written;
   std::vector<int> found;
   for (size_t face = 0; face < model.faces.size(); ++face) {
     if (!word.empty() && model.faces[face].name == word) found.push_back(static_cast<int>(face));
   }
   if (!found.empty()) return found;
+  word = WithPlainDashes(word);
   const size_t dash = word.find('-', 1);
   const auto first = ParseInteger(word.substr(0, dash));
   const auto last = dash == std::string::npos ? first : ParseInteger(word.substr(dash + 1));
@@ -57,9 +71,12 @@ std::string NoSuchFace(const PolygonModel& model, const std::string& word) {
     return "no face is called " + Quote(word) + ", and as a range it runs backwards: write " +
            std::to_string(*last) + "-" + std::to_string(*first);
   }
-  return "no face is called " + Quote(word) + "; faces have numbers from 1 to " +
-         std::to_string(HighestFaceNumber(model)) +
-         ", and names; several are written as 3-7, or one by one";
+  const bool has_several = word.find_first_not_of("0123456789 ,;+-") == std::string::npos &&
+                           word.find_first_of(" ,;+") != std::string::npos;
+  return "no face is called " + Quote(word) +
+         (has_several ? "; name one alone, or a range as 3-4, and others apart from it"
+                      : "; faces have numbers from 1 to " +
+                            std::to_string(HighestFaceNumber(model)) + ", and names");
 }
 
 // " s1 s2 s3", and how many more if there are many.

@@ -94,6 +94,21 @@ TEST(RestrictToPairs, ALineThatNamesNothingIsLeftOutAlone) {
   EXPECT_THAT(*photographs[1].faces, ElementsAre(0, 1, 2, 3, 4));
 }
 
+TEST(RestrictToPairs, RangesHaveAnyDashAndSeveralFacesAreTold) {
+  const TemporaryFolder folder;
+  const PolygonModel model = FiveWalls();
+  std::vector<BakePhotograph> photographs = Named({"s1", "s2"});
+  WriteFileAtomically(folder / "pairs.csv",
+                      "image,face\ns1,1\xE2\x80\x93"
+                      "2\ns2,\"3,4\"\ns2,3 4\n");
+  EXPECT_THAT(RestrictToPairs(folder / "pairs.csv", model, photographs),
+              ElementsAre(AllOf(HasSubstr("pairs.csv:3: no face is called '3,4'; name one alone"),
+                                HasSubstr("a range as 3-4")),
+                          HasSubstr("pairs.csv:4: no face is called '3 4'; name one alone")));
+  EXPECT_THAT(*photographs[0].faces, ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(*photographs[1].faces, ElementsAre(2, 3, 4));
+}
+
 TEST(RestrictToPairs, WhatIsNoTableOfPairsIsAnError) {
   const TemporaryFolder folder;
   const PolygonModel model = FiveWalls();
