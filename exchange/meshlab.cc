@@ -9,6 +9,9 @@
 #include "scene/formats/xml_text.h"
 #include "scene/text.h"
 
+#include <string>
+#include <vector>
+
 namespace groundglass {
 namespace {
 
@@ -68,6 +71,9 @@ class MeshLabReader {
   }
 
   Camera Read() const {
+    if (camera_.Attribute("CameraType") == "1") {
+      throw Error("<VCGCamera> is orthographic (CameraType 1), which no photograph is");
+    }
     const std::vector<double> position = Numbers("TranslationVector", 4);
     const std::vector<double> rotation = Numbers("RotationMatrix", 16);
     const std::vector<double> size = Numbers("ViewportPx", 2);
@@ -108,6 +114,22 @@ ForeignCamera ReadRaster(const std::filesystem::path& file, const XmlElement& ra
                            });
 }
 
+// A mesh that the project moves stands elsewhere than its file says, and so do the cameras.
+void RefuseMovedMesh(const std::filesystem::path& file, const XmlElement& element) {
+  if (element.name == "MLMatrix44") {
+    const std::vector<double> numbers = ReadXmlNumbers(file, element, element.text);
+    for (size_t i = 0; i < numbers.size(); ++i) {
+      if (numbers[i] == (i % 5 == 0 ? 1 : 0)) continue;
+      throw Error(file,
+                  element.line,
+                  "the project moves its mesh (MLMatrix44), so that the cameras do not suit the "
+                  "mesh's own file; in MeshLab apply 'Matrix: Freeze Current Matrix', and save "
+                  "mesh and project anew");
+    }
+  }
+  for (const XmlElement& child : element.children) RefuseMovedMesh(file, child);
+}
+
 void CollectRasters(const std::filesystem::path& file,
                     const XmlElement& element,
                     std::vector<ForeignCamera>& cameras) {
@@ -134,7 +156,9 @@ std::vector<FileToWrite> FormatMeshLab(const ExchangeScene& scene,
 
 std::vector<ForeignCamera> ReadMeshLab(const std::filesystem::path& file) {
   std::vector<ForeignCamera> cameras;
-  CollectRasters(file, ReadXml(file), cameras);
+  const XmlElement project = ReadXml(file);
+  RefuseMovedMesh(file, project);
+  CollectRasters(file, project, cameras);
   if (cameras.empty()) throw Error(file, "has no <MLRaster>, and so no camera");
   return cameras;
 }

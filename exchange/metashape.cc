@@ -10,7 +10,11 @@
 #include "scene/formats/xml_text.h"
 #include "scene/text.h"
 
+#include <cmath>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -97,20 +101,106 @@ Camera ReadSensor(const std::filesystem::path& file, const XmlElement& sensor) {
 
 struct MetashapeParts {
   std::map<std::string, const XmlElement*> sensors;  // by id
-  std::vector<const XmlElement*> cameras;
+  // With the chunk that each is part of; null if there is none.
+  std::vector<std::pair<const XmlElement*, const XmlElement*>> cameras;
 };
-void CollectParts(const XmlElement& element, MetashapeParts& parts) {
+void CollectParts(const XmlElement& element, const XmlElement* chunk, MetashapeParts& parts) {
+  if (element.name == "chunk") chunk = &element;
   if (element.name == "sensor") {
     parts.sensors[element.Attribute("id")] = &element;
     return;
   }
   // Without a transform it is not aligned.
-  if (element.name == "camera" && element.Child("transform")) parts.cameras.push_back(&element);
-  for (const XmlElement& child : element.children) CollectParts(child, parts);
+  if (element.name == "camera" && element.Child("transform")) {
+    parts.cameras.emplace_back(&element, chunk);
+  }
+  for (const XmlElement& child : element.children) CollectParts(child, chunk, parts);
+}
+
+// Where a chunk's or a component's own frame, in which its cameras are written, lies in the world:
+// world = scale * rotation * point + translation.
+struct ChunkPlacement {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  double scale = 1;
+};
+
+ChunkPlacement ReadPlacement(const std::filesystem::path& file, const XmlElement& transform) {
+  const auto numbers = [&](const char* name, size_t count) -> std::vector<double> {
+    const XmlElement* child = transform.Child(name);
+    if (child == nullptr) return {};
+    std::vector<double> values = ReadXmlNumbers(file, *child, child->text);
+    if (values.size() == count) return values;
+    throw Error(file,
+                child->line,
+                "<" + child->name + "> of the chunk's transform has " +
+                    std::to_string(values.size()) + " numbers, not " + std::to_string(count));
+  };
+  ChunkPlacement placement;
+  if (const auto rotation = numbers("rotation", 9); !rotation.empty()) {
+    placement.rotation = NearestRotation(
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data()));
+  }
+  if (const auto translation = numbers("translation", 3); !translation.empty()) {
+    placement.translation = Eigen::Map<const Eigen::Vector3d>(translation.data());
+  }
+  if (const auto scale = numbers("scale", 1); !scale.empty()) placement.scale = scale[0];
+  if (!(placement.scale > 0 && std::isfinite(placement.scale))) {
+    throw Error(file,
+                transform.line,
+                "the chunk's scale must be above 0, not " + FormatNumber(placement.scale));
+  }
+  return placement;
+}
+
+// The transform of the camera's component, else of its chunk; null if neither has one.
+const XmlElement* FindPlacement(const XmlElement& camera, const XmlElement& chunk) {
+  if (const XmlElement* components = chunk.Child("components")) {
+    const std::string id = camera.Attribute("component_id");
+    for (const XmlElement& component : components->children) {
+      const bool is_its =
+          id.empty() ? components->children.size() == 1 : component.Attribute("id") == id;
+      if (component.name == "component" && is_its && component.Child("transform")) {
+        return component.Child("transform");
+      }
+    }
+  }
+  return chunk.Child("transform");
+}
+
+// What is placed on the globe has its cameras about the Earth's centre, where the model is not.
+void RefuseGlobe(const std::filesystem::path& file, const XmlElement& chunk) {
+  const std::string reference = chunk.ChildText("reference");
+  if (reference.empty() || reference.starts_with("LOCAL_CS")) return;
+  const size_t start = reference.find('"');
+  const size_t end = reference.find('"', start + 1);
+  throw Error(
+      file,
+      chunk.line,
+      "the chunk is placed on the globe" +
+          (end == std::string::npos ? std::string()
+                                    : " (" + reference.substr(start + 1, end - start - 1) + ")") +
+          ", and its cameras about the Earth's centre; set its coordinate system to Local "
+          "Coordinates (Reference, Settings) and export cameras and model anew");
+}
+
+// From the chunk's own frame into the world.
+void PlaceInWorld(const std::filesystem::path& file,
+                  const XmlElement& element,
+                  const XmlElement* chunk,
+                  RigidTransform& world_from_cam) {
+  const XmlElement* transform = chunk ? FindPlacement(element, *chunk) : nullptr;
+  if (transform == nullptr) return;
+  RefuseGlobe(file, *chunk);
+  const ChunkPlacement placement = ReadPlacement(file, *transform);
+  world_from_cam.rotation = placement.rotation * world_from_cam.rotation;
+  world_from_cam.translation =
+      placement.scale * (placement.rotation * world_from_cam.translation) + placement.translation;
 }
 
 Camera ReadAlignedCamera(const std::filesystem::path& file,
                          const XmlElement& element,
+                         const XmlElement* chunk,
                          const MetashapeParts& parts) {
   const auto sensor = parts.sensors.find(element.Attribute("sensor_id"));
   if (sensor == parts.sensors.end()) throw Error("<camera> names a sensor that is not there");
@@ -126,6 +216,7 @@ Camera ReadAlignedCamera(const std::filesystem::path& file,
     world_from_cam.translation[row] = numbers[static_cast<size_t>(4 * row + 3)];
   }
   world_from_cam.rotation = NearestRotation(world_from_cam.rotation);
+  PlaceInWorld(file, element, chunk, world_from_cam);
   camera.cam_from_world = Inverse(world_from_cam);
   return camera;
 }
@@ -150,12 +241,14 @@ std::vector<FileToWrite> FormatMetashape(const ExchangeScene& scene,
 std::vector<ForeignCamera> ReadMetashape(const std::filesystem::path& file) {
   const XmlElement root = ReadXml(file);
   MetashapeParts parts;
-  CollectParts(root, parts);
+  CollectParts(root, nullptr, parts);
   std::vector<ForeignCamera> cameras;
-  for (const XmlElement* element : parts.cameras) {
+  for (const auto& [camera, of_chunk] : parts.cameras) {
+    const XmlElement* element = camera;
+    const XmlElement* chunk = of_chunk;
     cameras.push_back(
         ReadForeignCamera(file, element->Attribute("label"), XmlPlace(file, *element), [&] {
-          return ReadAlignedCamera(file, *element, parts);
+          return ReadAlignedCamera(file, *element, chunk, parts);
         }));
   }
   if (cameras.empty()) throw Error(file, "has no aligned <camera>; is it Metashape's?");

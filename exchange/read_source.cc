@@ -7,10 +7,15 @@
 #include "scene/formats/convert.h"
 #include "scene/formats/image_paths.h"
 #include "scene/formats/model_io.h"
+#include "scene/formats/model_kind.h"
 #include "scene/formats/registration_io.h"
 #include "scene/text.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -137,10 +142,34 @@ bool HasExchangeCameras(const fs::path& input) {
   return fs::is_directory(input) && (HasFoundCameras(input) || !ListCameraFiles(input).empty());
 }
 
-ExchangeSource ReadExchangeSource(const fs::path& input, const fs::path& images) {
+namespace {
+
+// Two cameras of one picture would be written over one another.
+void LeaveOutRepeated(const fs::path& input, ExchangeSource& source) {
+  std::set<std::string> seen;
+  std::vector<NamedCamera> kept;
+  std::string repeated;
+  for (NamedCamera& named : source.cameras) {
+    const std::string path = fs::path(named.name).lexically_normal().generic_string();
+    if (seen.insert(path).second) {
+      kept.push_back(std::move(named));
+    } else {
+      repeated += (repeated.empty() ? "" : ", ") + Quote(named.name);
+    }
+  }
+  source.cameras = std::move(kept);
+  if (repeated.empty()) return;
+  source.warnings.push_back(Error(input,
+                                  "pictures that have more than one camera: " + repeated +
+                                      "; the first of each is taken, the others are left out")
+                                .what());
+}
+
+ExchangeSource ReadSource(const fs::path& input, const fs::path& images) {
   ExchangeSource source;
   source.images = images;
   if (fs::is_regular_file(input) && FindCameraReader(input)) {
+    CheckModelKind(input);  // models have the same endings (CityJSON's .json, CityGML's .xml)
     TakeFiles({input}, images, source);
     // Without --images its folder may be anything, a disk's root too, and is not searched.
     if (!images.empty()) FindPictures(source);
@@ -173,6 +202,14 @@ ExchangeSource ReadExchangeSource(const fs::path& input, const fs::path& images)
   source.cameras = std::move(views.cameras);
   source.images = std::move(views.images);
   source.warnings = std::move(views.warnings);
+  return source;
+}
+
+}  // namespace
+
+ExchangeSource ReadExchangeSource(const fs::path& input, const fs::path& images) {
+  ExchangeSource source = ReadSource(input, images);
+  LeaveOutRepeated(input, source);
   return source;
 }
 

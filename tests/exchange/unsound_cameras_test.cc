@@ -102,6 +102,38 @@ TEST(UnsoundCameras, OfMetashapeAndMeshLabAreNamedByTheirLine) {
               HasSubstr("RotationMatrix has 15 numbers, not 16; image 's3' is left out"));
 }
 
+TEST(UnsoundCameras, OrthographicOnesAndMovedMeshesOfMeshLabAreRefused) {
+  const TemporaryFolder folder;
+  const std::string meshlab = FormatMeshLab(TwoCameras(), folder / "p.mlp")[0].bytes;
+  EXPECT_THAT(
+      WarningOf(folder.Write("p.mlp", Replaced(meshlab, "CameraType=\"0\"", "CameraType=\"1\""))),
+      HasSubstr("p.mlp:7: <VCGCamera> is orthographic"));
+  const auto matrix = [&](const std::string& numbers) {
+    return folder.Write("p.mlp",
+                        Replaced(meshlab,
+                                 "<RasterGroup>",
+                                 "<MeshGroup><MLMesh><MLMatrix44>" + numbers +
+                                     "</MLMatrix44></MLMesh></MeshGroup><RasterGroup>"));
+  };
+  EXPECT_EQ(ReadMeshLab(matrix("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1")).size(), 2u);
+  EXPECT_THAT(ThrownMessage([&] { ReadMeshLab(matrix("1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1")); }),
+              HasSubstr("the project moves its mesh (MLMatrix44)"));
+}
+
+TEST(UnsoundCameras, APictureThatIsThereTwiceHasItsFirstCamera) {
+  const TemporaryFolder folder;
+  Json json = Json::parse(FormatNerfstudio(TwoCameras(), folder / "transforms.json")[0].bytes);
+  json["frames"][1]["file_path"] = "./" + json["frames"][0]["file_path"].get<std::string>();
+  json["frames"][1]["fl_x"] = 777;
+  const auto file = folder.Write("transforms.json", json.dump());
+  const ExchangeSource source = ReadExchangeSource(file, {});
+  ASSERT_EQ(source.cameras.size(), 1u);
+  EXPECT_NE(source.cameras[0].camera.focal_x_px, 777);
+  EXPECT_THAT(
+      source.warnings,
+      ElementsAre(HasSubstr("transforms.json: pictures that have more than one camera: './s3'")));
+}
+
 TEST(UnsoundCameras, AllOfThemAreAnError) {
   const TemporaryFolder folder;
   Json json = Json::parse(
@@ -155,6 +187,42 @@ TEST(ForeignPoses, NerfstudiosScaleIsUndoneAfterItsTransform) {
               HasSubstr("applied_scale must be above 0, not 0"));
 }
 
+TEST(ForeignPoses, TheTransformOfMetashapesChunkOrComponentPlacesTheCameras) {
+  const Camera camera = OffCentreCamera();
+  const TemporaryFolder folder;
+  const std::string text = FormatMetashape(SceneOf(camera), folder / "c.xml")[0].bytes;
+  // A quarter turn about z, twice as large, moved.
+  const std::string transform =
+      "<transform><rotation>0 -1 0 1 0 0 0 0 1</rotation><translation>10 20 30</translation>"
+      "<scale>2</scale></transform>";
+  const auto read = [&](const std::string& more, const std::string& of_camera = "") {
+    std::string changed = text;
+    changed.replace(changed.find("</cameras>"), 10, "</cameras>" + more);
+    if (!of_camera.empty()) changed.replace(changed.find("<camera id"), 7, "<camera" + of_camera);
+    return ReadMetashape(folder.Write("c.xml", changed))[0];
+  };
+  const Eigen::Vector3d before = camera.PositionInWorld();
+  const Eigen::Vector3d placed(10 - 2 * before.y(), 20 + 2 * before.x(), 30 + 2 * before.z());
+  const std::string component =
+      "<components><component id=\"4\">" + transform + "</component></components>";
+  for (const ForeignCamera& found :
+       {read(transform),
+        read(transform + "<reference>LOCAL_CS[\"Local Coordinates (m)\"]</reference>"),
+        read(component, " component_id=\"4\""),
+        read(component)}) {
+    EXPECT_EQ(found.fault, "");
+    EXPECT_LT((found.named.camera.PositionInWorld() - placed).norm(), 1e-9);
+    const Eigen::Vector3d axis = camera.cam_from_world.rotation.row(2);
+    const Eigen::Vector3d turned(-axis.y(), axis.x(), axis.z());
+    EXPECT_LT((found.named.camera.cam_from_world.rotation.row(2).transpose() - turned).norm(),
+              1e-9);
+  }
+  EXPECT_LT((read(component, " component_id=\"5\"").named.camera.PositionInWorld() - before).norm(),
+            1e-9);
+  EXPECT_THAT(read(transform + "<reference>GEOGCS[\"WGS 84\",1]</reference>").fault,
+              HasSubstr("the chunk is placed on the globe (WGS 84)"));
+}
+
 TEST(ForeignPoses, AFrameThatWouldBeHugeIsAnError) {
   Camera camera = OffCentreCamera();
   camera.center_x_px = 1e5;
@@ -176,6 +244,18 @@ TEST(ExchangeFolders, FspyProjectsOfAFolderAreReadTogether) {
   EXPECT_EQ(source.cameras[0].name, "s3");
   EXPECT_EQ(source.cameras[1].name, "S10.JPG");
   EXPECT_THAT(source.warnings, ElementsAre(HasSubstr("s4.fspy: is no project of fSpy's")));
+}
+
+TEST(ExchangeFolders, AModelInPlaceOfCamerasIsNamed) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& name, const std::string& text) {
+    return ThrownMessage([&] { ReadExchangeSource(folder.Write(name, text), {}); });
+  };
+  EXPECT_THAT(message("a.city.json", R"({"type": "CityJSON", "vertices": []})"),
+              HasSubstr("a.city.json: this is CityJSON, which is not read; export it as CityGML"));
+  EXPECT_THAT(message("a.xml", "<CityModel/>"), HasSubstr("this is CityGML by its content"));
+  EXPECT_THAT(message("transforms.json", R"({"vertices": []})"),
+              HasSubstr("transforms.json: is not as nerfstudio writes"));
 }
 
 TEST(ExchangeFolders, ASceneIsReadByItsViewFilesAndImages) {
