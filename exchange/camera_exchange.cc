@@ -7,6 +7,8 @@
 #include "exchange/geodetic.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
+#include "scene/formats/colmap_io.h"
+#include "scene/formats/colmap_names.h"
 #include "scene/formats/given_cameras.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/image_paths.h"
@@ -14,6 +16,9 @@
 #include "scene/text.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -169,6 +174,13 @@ ExchangeResult WriteCamerasAs(std::string_view format_name,
   }
   ExchangeResult result;
   result.warnings = source.warnings;
+  if (!format->format) {
+    std::vector<std::string> images;
+    for (const ExchangeCamera& each : scene.cameras) images.push_back(each.image_name);
+    for (std::string& warning : TellNamesWithBlanks(out, images)) {
+      result.warnings.push_back(std::move(warning));
+    }
+  }
   result.summary = CountOf(scene.cameras.size(), "camera") + " in " + out.string();
   if (preparation.NumChanged() > 0) {
     result.summary += "; " + CountOf(static_cast<size_t>(preparation.NumChanged()), "picture") +

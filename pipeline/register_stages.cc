@@ -5,14 +5,19 @@
 #include "register/register.h"
 #include "register/registration_output.h"
 #include "scene/error.h"
+#include "scene/formats/colmap_names.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/registration_io.h"
+#include "scene/formats/scene_folder.h"
 #include "scene/progress.h"
 #include "viewer/overlay.h"
 
 #include <tbb/parallel_for.h>
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -116,6 +121,13 @@ RegisteredScene EnsureRegistered(const Scene& scene,
   }
   RegisteredScene registered =
       RegisterScene(scene, lens, with_folder, observer.Begin(kRegisterStage));
+  std::vector<std::string> images;
+  for (const Photograph& photograph : scene.photographs) {
+    images.push_back(ImageName(scene, photograph));
+  }
+  for (std::string& warning : TellNamesWithBlanks(out / "cameras", images)) {
+    registered.warnings.push_back(std::move(warning));
+  }
   WriteRegistrationOutput(scene, registered, out);
   if (options.use_colmap) stages.Finish(kColmapStage);
   stages.Finish(kRegisterStage);

@@ -6,6 +6,7 @@
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/colmap_io.h"
+#include "scene/formats/colmap_names.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/image_paths.h"
 #include "scene/formats/osu_io.h"
@@ -17,6 +18,9 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace groundglass {
 namespace {
@@ -181,6 +185,11 @@ ConvertResult ConvertViewsToColmap(const fs::path& input,
                                    const fs::path& images) {
   ViewCameras views = ReadViewCameras(input, images);
   WriteColmapModel(output, views.cameras);
+  std::vector<std::string> names;
+  for (const NamedCamera& named : views.cameras) names.push_back(named.name);
+  for (std::string& warning : TellNamesWithBlanks(output, names)) {
+    views.warnings.push_back(std::move(warning));
+  }
   return {Count(views.cameras.size(), "camera") + " in " + output.string(),
           std::move(views.warnings)};
 }

@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "scene/formats/colmap_io.h"
 
+#include "scene/formats/colmap_names.h"
 #include "scene/formats/image_io.h"
 #include "scene/formats/osu_io.h"
 #include "scene/formats/scene_folder.h"
@@ -75,6 +76,15 @@ TEST(ColmapModel, NumbersImagesAsColmapsDatabaseDoes) {
   EXPECT_THAT(images, HasSubstr(" 2 s2.jpg\n\n1 "));
   EXPECT_THAT(images, HasSubstr(" 1 s10.jpg\n"));
   EXPECT_EQ(ReadColmapModel(folder.path())[0].name, "s2.jpg");
+}
+
+TEST(ColmapModel, NamesWithBlanksAreTold) {
+  EXPECT_TRUE(TellNamesWithBlanks("out", {"s1.jpg", "north/s2.jpg"}).empty());
+  EXPECT_THAT(TellNamesWithBlanks("out", {"a b.jpg", "s1.jpg", "c d.jpg", "e f.jpg", "g h.jpg"}),
+              testing::ElementsAre(testing::AllOf(
+                  testing::HasSubstr("out/images.txt: COLMAP itself reads names of images only up "
+                                     "to a blank: 'a b.jpg', 'c d.jpg', 'e f.jpg' and 1 more"),
+                  testing::HasSubstr("--to colmap-binary"))));
 }
 
 TEST(ColmapModel, ColmapItselfReadsIt) {
