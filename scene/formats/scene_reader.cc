@@ -62,12 +62,7 @@ SceneReader::SceneReader(const fs::path& folder, const SceneOptions& options)
 SceneReading SceneReader::Read(bool decode_pictures) {
   std::error_code error;
   if (!fs::is_directory(folder_, error)) {
-    Fault(Error(folder_,
-                fs::exists(folder_, error)
-                    ? "a file, not a scene folder; expected the folder that holds the model, "
-                      "images/ and views/"
-                    : "no such scene folder")
-              .what());
+    Fault(Error(folder_, "no such scene folder").what());
     return {std::move(result_), std::move(scene_faults_), {}};
   }
   ReadTheModel();
@@ -251,8 +246,8 @@ void SceneReader::AddMasks(const char* subfolder, std::optional<fs::path> Photog
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / subfolder, failure)) {
     if (entry.is_directory(failure) && IsImageExtension(entry.path().extension().string())) {
       Warn(entry.path(), "is a folder; put the mask itself there");
-    } else if (entry.is_symlink(failure) && !fs::exists(entry.path(), failure)) {
-      Warn(entry.path(), "is a link to a file that is not there; link it again, or copy the file");
+    } else if (entry.is_symlink(failure) && !entry.exists(failure)) {
+      Warn(entry.path(), "is a link that leads to no file; put the mask itself there");
     }
   }
   std::vector<std::string> names;

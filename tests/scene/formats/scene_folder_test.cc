@@ -80,11 +80,15 @@ TEST(ReadScene, WhatIsNoFileUnderAPhotographsNameIsTold) {
   EXPECT_THAT(warnings(), Contains(HasSubstr("images/s2.jpg is a folder")));
 }
 
-TEST(ReadScene, AFolderInAMasksPlaceIsTold) {
+TEST(ReadScene, AFolderOrALinkToNothingInAMasksPlaceIsTold) {
   const SceneFolder folder;
   std::filesystem::create_directories(folder / "masks/s2.tif");
   EXPECT_THAT(CheckScene(folder.path()).scene.warnings,
               Contains(HasSubstr("masks/s2.tif: is a folder")));
+  std::filesystem::remove(folder / "masks/s2.tif");
+  std::filesystem::create_symlink("nowhere", folder / "masks/s2.tif");
+  EXPECT_THAT(CheckScene(folder.path()).scene.warnings,
+              Contains(HasSubstr("masks/s2.tif: is a link that leads to no file")));
 }
 
 TEST(ReadScene, APhotographWhoseNameHoldsALineBreakIsLeftOut) {
