@@ -13,6 +13,7 @@ usage() {
                under these, only what reads files from elsewhere: scene and tests/fuzz
   --long       every test, longer fuzzing, the benchmarks, then --sanitize
   --tidy       read every source with clang-tidy; warnings are errors
+  --names      the same for the rooms without their tests, and only names and sizes of functions
   --format     check the formatting only; nothing is built
   --no-install leave the machine's packages alone
   -- ARGS      handed to ctest, e.g.  -- -R register/
@@ -29,6 +30,7 @@ while (($#)); do
     --sanitize-readers) preset=readers ;;
     --long) long=yes ;;
     --tidy) preset=tidy ;;
+    --names) preset=names ;;
     --format) preset=format ;;
     --no-install) install=no ;;
     -h | --help) usage; exit 0 ;;
@@ -58,15 +60,22 @@ configure_and_build() {
   cmake --build --preset "$1" --parallel "$(nproc)" ${2:+--target "$2"}
 }
 
-if [[ $preset == tidy ]]; then
-  packages build test tidy
+if [[ $preset == tidy || $preset == names ]]; then
+  checks=()
+  if [[ $preset == names ]]; then
+    checks=('--checks=-*,readability-identifier-naming,readability-function-size')
+    packages build tidy
+  else
+    packages build test tidy
+  fi
   echo "== clang-tidy"
-  cmake --log-level=WARNING --preset tidy
-  cmake --build --preset tidy --target embedded_files
+  cmake --log-level=WARNING --preset "$preset"
+  cmake --build --preset "$preset" --target embedded_files
   # Several sources at a time, as they are compiled: most of the work is reading what they include.
-  grep -o '"file": "[^"]*"' build/tidy/compile_commands.json | cut -d'"' -f4 |
-    grep -v cmake_pch | sort -u |
-    xargs -P "$(nproc)" -n 1 clang-tidy --quiet -p build/tidy
+  # The largest first, so that no core waits for the last one.
+  grep -o '"file": "[^"]*"' "build/$preset/compile_commands.json" | cut -d'"' -f4 |
+    grep -v cmake_pch | sort -u | xargs wc -l | grep -v ' total$' | sort -rn | awk '{print $2}' |
+    xargs -P "$(nproc)" -n 1 clang-tidy --quiet -p "build/$preset" "${checks[@]}"
   echo "clang-tidy found nothing."
   exit 0
 fi

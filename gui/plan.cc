@@ -111,11 +111,11 @@ void App::PressOnPlan(int x, int y) {
 }
 
 void App::ReleaseOnPlan() {
-  constexpr double kDragPx = 6;
-  constexpr double kReachPx = 8;
+  constexpr double kLeastDragPx = 6;
+  constexpr double kPointReachPx = 8;
   const PlanFrame frame = MakePlanFrame();
   const Eigen::Vector2d at = frame.OnScreen(rough_end_);
-  if ((at - frame.OnScreen(rough_start_)).norm() > kDragPx) {
+  if ((at - frame.OnScreen(rough_start_)).norm() > kLeastDragPx) {
     if (mode_ != WindowMode::kTag || photograph_ < 0) return;
     // People tilt their cameras a little upwards at a building, and no higher than its middle.
     constexpr double kTilt = 0.15;
@@ -128,7 +128,8 @@ void App::ReleaseOnPlan() {
   }
   for (int i = 0; i < static_cast<int>(session_.photographs().size()); ++i) {
     const std::optional<Camera> camera = BelievedCamera(i);
-    if (!camera || (frame.OnScreen(camera->PositionInWorld()) - at).norm() > kReachPx) continue;
+    if (!camera || (frame.OnScreen(camera->PositionInWorld()) - at).norm() > kPointReachPx)
+      continue;
     Choose(i, IsInside());
     return;
   }

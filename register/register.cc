@@ -13,7 +13,6 @@
 #include "scene/formats/image_io.h"
 #include "scene/formats/select_photographs.h"
 #include "scene/formats/tag_corners.h"
-#include "scene/text.h"
 
 #include <tbb/parallel_for.h>
 
@@ -202,19 +201,6 @@ void RefineWhatIsShared(const EdgeModel& edge_model,
   }
 }
 
-// COLMAP's reader of text models ends a name at a blank.
-std::optional<std::string> DescribeBlankInName(const Scene& scene) {
-  for (const Photograph& photograph : scene.photographs) {
-    const std::string name = ImageName(scene, photograph);
-    if (name.find(' ') == std::string::npos) continue;
-    return Quote(name) +
-           " has a blank in its name, at which COLMAP ends it when it reads cameras/images.txt; "
-           "for COLMAP: groundglass convert OUT FOLDER --to colmap-binary, or rename the "
-           "photograph";
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 RegisteredScene RegisterScene(const Scene& scene,
@@ -237,7 +223,6 @@ RegisteredScene RegisterScene(const Scene& scene,
     const std::vector<SeenTagCorner> tag_corners = TagCornersOf(scene, registered.warnings);
     RefineWhatIsShared(edge_model, options, tag_corners, progress, alignments, registered);
   }
-  if (const auto blank = DescribeBlankInName(scene)) registered.warnings.push_back(*blank);
   JudgeSharedConflict(options.conflict, alignments);
   for (PhotographAlignment& alignment : alignments) {
     FinishVerdict(options, alignment);

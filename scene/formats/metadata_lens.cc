@@ -22,7 +22,7 @@ constexpr double kSameFocalLength = 0.02;
 // A whole number that stands for any within half of it, one standard deviation.
 const double kRounding = 1 / std::sqrt(12.0);
 // Sides that differ by no more than this are the same shape: whole pixels, and cameras' margins.
-constexpr double kSameShape = 0.01;
+constexpr double kSameAspect = 0.01;
 // A camera's pixels are square to this share, one standard deviation.
 constexpr double kSquarePixels = 0.001;
 
@@ -45,7 +45,7 @@ WholeFrame FindWholeFrame(const PhotographMetadata& metadata) {
   ImageSize taken = *metadata.size_when_taken;
   const auto is_same_shape = [&](const ImageSize& other) {
     return std::abs(static_cast<double>(other.width) * now.height / other.height / now.width - 1) <
-           kSameShape;
+           kSameAspect;
   };
   if (is_same_shape(taken)) return frame;
   const ImageSize turned{taken.height, taken.width, 1};
@@ -90,7 +90,7 @@ ScanDoubt FindScanDoubt(const PhotographMetadata& metadata, const MetadataLensOp
   const double shape = static_cast<double>(std::max(metadata.size.width, metadata.size.height)) /
                        std::min(metadata.size.width, metadata.size.height);
   const double off = std::abs(std::log(shape / kShape35mm));
-  if (off <= kSameShape) return doubt;
+  if (off <= kSameAspect) return doubt;
   // Cropped from the sides or squeezed: the diagonal's view angle lies midway between.
   doubt.focal = std::hypot(doubt.focal, off / 2);
   doubt.aspect = std::hypot(doubt.aspect, off);

@@ -260,7 +260,7 @@ TEST(Told, AFileInPlaceOfItsFolderAndALinkToNothing) {
   fs::create_directory(scene / "masks");
   fs::create_symlink("nowhere.png", scene / "masks/s1.png");
   EXPECT_THAT(RunProgram({"check", scene.string()}).out,
-              HasSubstr("s1.png: is a link to a file that is not there"));
+              HasSubstr("s1.png: is a link that leads to no file"));
 }
 
 TEST(Told, AThumbnailInPlaceOfAPhotograph) {
