@@ -62,7 +62,12 @@ SceneReader::SceneReader(const fs::path& folder, const SceneOptions& options)
 SceneReading SceneReader::Read(bool decode_pictures) {
   std::error_code error;
   if (!fs::is_directory(folder_, error)) {
-    Fault(Error(folder_, "no such scene folder").what());
+    Fault(Error(folder_,
+                fs::exists(folder_, error)
+                    ? "a file, not a scene folder; expected the folder that holds the model, "
+                      "images/ and views/"
+                    : "no such scene folder")
+              .what());
     return {std::move(result_), std::move(scene_faults_), {}};
   }
   ReadTheModel();
