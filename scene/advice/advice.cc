@@ -89,7 +89,7 @@ std::vector<Advice> FindModelOddities(const Scene& scene, const ModelOptions& op
   // Such cameras need not be held by people, who tell the unit.
   AdviseOnModel(context, Misreading::kOther);
   const PictureJudge judge(scene);
-  AdviseOnGivenCameras(context, &judge);
+  AdviseOnGivenCameras(context, judge);
   if (!ShowsBacksOnly(context)) AdviseOnWinding(context);
   return found;
 }

@@ -44,24 +44,22 @@ double ShareThatSees(const AdviceContext& context,
 
 }  // namespace
 
-void AdviseOnGivenCameras(const AdviceContext& context, const PictureJudge* judge) {
+void AdviseOnGivenCameras(const AdviceContext& context, const PictureJudge& judge) {
   constexpr double kFew = 0.5;
   constexpr double kMost = 0.8;
   const std::vector<const Photograph*> photographs = SomePhotographs(context.scene);
   if (photographs.size() < kFewestTags) return;
   const std::vector<Reading> readings = OtherUnits(context, AxesOptions(context.options));
   const double as_read = ShareThatSees(context, photographs, {});
-  const std::vector<double> fits_as_read =
-      judge ? judge->Fit(context.scene.model, {}, kTagReach) : std::vector<double>();
-  if (as_read >= kFew && (!judge || PictureJudge::Mean(fits_as_read) >= kFittingScore)) return;
+  const std::vector<double> fits_as_read = judge.Fit(context.scene.model, {}, kTagReach);
+  if (as_read >= kFew && PictureJudge::Mean(fits_as_read) >= kFittingScore) return;
   const Reading* best = nullptr;
   double best_fit = 0;
   for (const Reading& reading : readings) {
     if (ShareThatSees(context, photographs, reading.model) < kMost) continue;
     // Other sizes about the same origin look alike: only the pictures tell them apart.
-    if (!judge) continue;
     const std::vector<double> fits =
-        judge->Fit(ReadOtherwise(context.scene.model, reading.model), {}, kTagReach);
+        judge.Fit(ReadOtherwise(context.scene.model, reading.model), {}, kTagReach);
     if (PictureJudge::Mean(fits) <= best_fit || !PictureJudge::IsClearlyBetter(fits, fits_as_read))
       continue;
     best = &reading;

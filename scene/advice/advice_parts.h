@@ -64,7 +64,7 @@ bool AdviseOnMirror(const AdviceContext& context, const PictureJudge& judge);
 // All heights in the tags off by the same, as the pictures tell. True if so.
 bool AdviseOnDatum(const AdviceContext& context, const PictureJudge& judge);
 // Cameras from elsewhere, most of which do not see the model: another unit, or another origin.
-void AdviseOnGivenCameras(const AdviceContext& context, const PictureJudge* judge);
+void AdviseOnGivenCameras(const AdviceContext& context, const PictureJudge& judge);
 // The steps of the coordinates of a model whose faces could not be read.
 void AdviseOnUnreadModel(const Scene& scene,
                          const ModelOptions& options,
