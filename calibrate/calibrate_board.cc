@@ -102,6 +102,7 @@ void CheckFit(double rms_px,
 
 // Why too few photographs show the board.
 std::string ExplainWhy(std::span<const BoardPhotograph> photographs,
+                       size_t num_shots,
                        const Board& board,
                        const std::vector<std::vector<AprilTagDetection>>& detections) {
   const int end_id = board.first_id + board.columns * board.rows;
@@ -126,6 +127,7 @@ std::string ExplainWhy(std::span<const BoardPhotograph> photographs,
     return "; " + text;
   }
   if (2 * num_own > num_april_tags) {
+    if (num_shots == photographs.size()) return "";
     return "; " + photographs[most].name + " shows most, " +
            std::to_string(detections[most].size()) +
            ": elsewhere they are too small, blurred or cut off; let the board fill the frame";
@@ -264,7 +266,7 @@ std::vector<BoardShot> MeasureShots(std::span<const BoardPhotograph> photographs
                 std::to_string(photographs.size()) + " photographs show the board with at least " +
                 std::to_string(options.min_april_tags) +
                 " of its tags; at least 3 are needed, from several sides" +
-                ExplainWhy(photographs, board, detections));
+                ExplainWhy(photographs, shots.size(), board, detections));
   }
   return shots;
 }

@@ -145,7 +145,7 @@ std::vector<BoardPhotograph> ReadBoardPhotographs(const BoardArguments& argument
     const auto [width, height] = size_of(photograph);
     if (std::pair(width, height) == usual->first) return false;
     left_out.push_back(photograph.name + ": " + std::to_string(width) + " x " +
-                       std::to_string(height) + " pixels, and most have " +
+                       std::to_string(height) + " pixels, and the others have " +
                        std::to_string(usual->first.first) + " x " +
                        std::to_string(usual->first.second) +
                        "; photographs of one lens have one size, and are not turned");

@@ -180,16 +180,17 @@ void RequireSuitableLens(const std::filesystem::path& file, const Scene& scene) 
                   " pixels); it is of another camera, or of one that was held the other way");
 }
 
-// A standard deviation as large as the building holds nothing; most often it is meant in another
-// unit.
+// A standard deviation of several times the building's size holds nothing; most often it is meant
+// in another unit.
 std::vector<std::string> DescribeWideSigmas(const PriorOptions& prior, const PolygonModel& model) {
+  constexpr double kSeveralTimes = 3;
   const double size_m = ComputeBuildingBounds(model).Diagonal() * MetresPerUnit(model.unit);
   std::vector<std::string> warnings;
   const auto look_at = [&](const std::optional<double>& sigma_m, const std::string& option) {
-    if (!sigma_m || *sigma_m < size_m) return;
+    if (!sigma_m || *sigma_m < kSeveralTimes * size_m) return;
     warnings.push_back(fmt::format(
-        "{} {}: so many metres are more than the whole building ({:.2g} m across), so the tags "
-        "hold nothing; it is in metres, whatever the model's unit",
+        "{} {}: so many metres are several times the whole building ({:.0f} m across), as if the "
+        "tags told nothing; it is in metres, whatever the model's unit",
         option,
         FormatNumber(*sigma_m),
         size_m));
@@ -242,6 +243,9 @@ Scene ReadSceneForCommand(const RegisterArguments& arguments,
     for (const ControlPoint& point : points) names.push_back(point.photograph);
     RequirePhotographs(scene, names, arguments.points_file->string());
     CheckControlPoints(*arguments.points_file, points, scene);
+    for (const std::string& warning : DescribeThinControlPoints(*arguments.points_file, points)) {
+      scene.warnings.push_back(warning);
+    }
   }
   return scene;
 }

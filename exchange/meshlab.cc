@@ -114,20 +114,30 @@ ForeignCamera ReadRaster(const std::filesystem::path& file, const XmlElement& ra
                            });
 }
 
-// A mesh that the project moves stands elsewhere than its file says, and so do the cameras.
-void RefuseMovedMesh(const std::filesystem::path& file, const XmlElement& element) {
-  if (element.name == "MLMatrix44") {
-    const std::vector<double> numbers = ReadXmlNumbers(file, element, element.text);
-    for (size_t i = 0; i < numbers.size(); ++i) {
-      if (numbers[i] == (i % 5 == 0 ? 1 : 0)) continue;
-      throw Error(file,
-                  element.line,
-                  "the project moves its mesh (MLMatrix44), so that the cameras do not suit the "
-                  "mesh's own file; in MeshLab apply 'Matrix: Freeze Current Matrix', and save "
-                  "mesh and project anew");
+// A mesh that the project moves stands elsewhere than its file says, and so do the cameras; unless
+// another stays where it is.
+void RefuseMovedMeshes(const std::filesystem::path& file, const XmlElement& project) {
+  int num_in_place = 0;
+  int moved_line = 0;
+  const auto look_at = [&](const auto& self, const XmlElement& element) -> void {
+    if (element.name == "MLMatrix44") {
+      const std::vector<double> numbers = ReadXmlNumbers(file, element, element.text);
+      bool is_identity = true;
+      for (size_t i = 0; i < numbers.size(); ++i) {
+        is_identity = is_identity && numbers[i] == (i % 5 == 0 ? 1 : 0);
+      }
+      if (is_identity) ++num_in_place;
+      if (!is_identity && moved_line == 0) moved_line = element.line;
     }
-  }
-  for (const XmlElement& child : element.children) RefuseMovedMesh(file, child);
+    for (const XmlElement& child : element.children) self(self, child);
+  };
+  look_at(look_at, project);
+  if (moved_line == 0 || num_in_place > 0) return;
+  throw Error(file,
+              moved_line,
+              "the project moves its mesh (MLMatrix44), so that the cameras do not suit the mesh's "
+              "own file; in MeshLab apply 'Matrix: Freeze Current Matrix', and save mesh and "
+              "project anew");
 }
 
 void CollectRasters(const std::filesystem::path& file,
@@ -157,7 +167,7 @@ std::vector<FileToWrite> FormatMeshLab(const ExchangeScene& scene,
 std::vector<ForeignCamera> ReadMeshLab(const std::filesystem::path& file) {
   std::vector<ForeignCamera> cameras;
   const XmlElement project = ReadXml(file);
-  RefuseMovedMesh(file, project);
+  RefuseMovedMeshes(file, project);
   CollectRasters(file, project, cameras);
   if (cameras.empty()) throw Error(file, "has no <MLRaster>, and so no camera");
   return cameras;

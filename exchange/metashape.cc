@@ -191,8 +191,9 @@ void PlaceInWorld(const std::filesystem::path& file,
                   RigidTransform& world_from_cam) {
   const XmlElement* transform = chunk ? FindPlacement(element, *chunk) : nullptr;
   if (transform == nullptr) return;
-  RefuseGlobe(file, *chunk);
+  constexpr double kFarthestModel = 1e6;  // nearer than that nothing lies about the Earth's centre
   const ChunkPlacement placement = ReadPlacement(file, *transform);
+  if (placement.translation.norm() > kFarthestModel) RefuseGlobe(file, *chunk);
   world_from_cam.rotation = placement.rotation * world_from_cam.rotation;
   world_from_cam.translation =
       placement.scale * (placement.rotation * world_from_cam.translation) + placement.translation;

@@ -122,12 +122,23 @@ void CheckControlPoints(const std::filesystem::path& file,
                       FormatNumber(point.image_px.y()) + " pixels, outside its picture of " +
                       FormatNumber(size.x()) + " x " + FormatNumber(size.y()));
     }
-    if (AreOnOneLine(points, point.photograph)) {
-      throw Error(file,
-                  "the points of " + Quote(point.photograph) +
-                      " lie on one line, about which its camera could turn; add one beside it");
-    }
   }
+}
+
+std::vector<std::string> DescribeThinControlPoints(const std::filesystem::path& file,
+                                                   const std::vector<ControlPoint>& points) {
+  std::set<std::string> names;
+  for (const ControlPoint& point : points) names.insert(point.photograph);
+  std::vector<std::string> warnings;
+  for (const std::string& name : names) {
+    if (!AreOnOneLine(points, name)) continue;
+    warnings.push_back(Error(file,
+                             "the points of " + Quote(name) +
+                                 " lie on one line, about which only the tag holds its camera; add "
+                                 "one beside it")
+                           .what());
+  }
+  return warnings;
 }
 
 }  // namespace groundglass

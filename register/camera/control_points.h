@@ -31,4 +31,8 @@ void CheckControlPoints(const std::filesystem::path& file,
                         const std::vector<ControlPoint>& points,
                         const Scene& scene);
 
+// One line, with the file's name, for each photograph whose points lie on one line of the model.
+std::vector<std::string> DescribeThinControlPoints(const std::filesystem::path& file,
+                                                   const std::vector<ControlPoint>& points);
+
 }  // namespace groundglass

@@ -125,7 +125,7 @@ std::vector<Advice> FindOddities(const Scene& scene,
     std::vector<TagDoubt> doubts = FindTagDoubts(context);
     if (with_pictures) {
       fits = FitPictures(context);
-      if (AdviseOnOrder(context, fits) || AdviseOnNoFit(context, fits, *judge)) {
+      if (AdviseOnOrder(context, fits, doubts) || AdviseOnNoFit(context, fits, *judge)) {
         doubts.clear();
         fits.clear();
       }

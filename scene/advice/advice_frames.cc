@@ -311,8 +311,6 @@ bool AdviseOnInvertedAspects(const AdviceContext& context) {
   return true;
 }
 
-}  // namespace
-
 // A picture too small for any edge to be placed: a thumbnail in place of the photograph.
 void AdviseOnThumbnail(const AdviceContext& context, const Photograph& photograph) {
   constexpr int kSmallest_px = 100;
@@ -324,6 +322,8 @@ void AdviseOnThumbnail(const AdviceContext& context, const Photograph& photograp
                   " pixels, too few to find the model's edges in",
               "put the photograph itself there: this is a thumbnail, it seems");
 }
+
+}  // namespace
 
 void AdviseOnFrames(const AdviceContext& context) {
   AdviseOnRadians(context);

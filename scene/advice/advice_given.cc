@@ -78,7 +78,9 @@ void AdviseOnGivenCameras(const AdviceContext& context, const PictureJudge& judg
                     " % of the cameras stand inside the model or under it, or hardly see it",
                 "cameras and model need the same origin, axes and unit: those of a "
                 "reconstruction by itself, without control points, have none of them");
-  } else if (photographs.size() >= kFewestToTell) {
+  } else if (static_cast<size_t>(std::count_if(
+                 fits_as_read.begin(), fits_as_read.end(), [](double fit) { return fit > 0; })) >=
+             kFewestToTell) {
     context.Add(Advice::Severity::kScene,
                 file,
                 "the pictures' edges are not where these cameras see the model's, no more than by "

@@ -38,8 +38,10 @@ std::vector<double> PictureJudge::Fit(const PolygonModel& model,
 }
 
 double PictureJudge::Mean(const std::vector<double>& fits) {
-  if (fits.empty()) return 0;
-  return std::reduce(fits.begin(), fits.end()) / static_cast<double>(fits.size());
+  const auto num_known =
+      std::count_if(fits.begin(), fits.end(), [](double fit) { return fit > 0; });
+  if (num_known == 0) return 0;
+  return std::reduce(fits.begin(), fits.end()) / static_cast<double>(num_known);
 }
 
 bool PictureJudge::IsClearlyBetter(const std::vector<double>& fits,

@@ -21,7 +21,7 @@ class PictureJudge {
   std::vector<double> Fit(const PolygonModel& model,
                           const Retag& retag = {},
                           double nearness = 1) const;
-  // Of all pictures; 0 of none.
+  // Of all pictures of which it is known; 0 of none.
   static double Mean(const std::vector<double>& fits);
   // Nearly all pictures are fitted better than by the other, and clearly so.
   static bool IsClearlyBetter(const std::vector<double>& fits, const std::vector<double>& others);

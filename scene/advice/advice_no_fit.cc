@@ -7,6 +7,10 @@
 #include "scene/advice/advice_readings.h"
 #include "scene/advice/picture_fit.h"
 
+#include <cmath>
+#include <string>
+#include <vector>
+
 namespace groundglass {
 namespace {
 

@@ -109,27 +109,34 @@ bool AdviseOnShift(const AdviceContext& context, std::vector<double> as_read, Or
 }
 
 // Two that were exchanged: at least one of them is a picture that does not suit its tag.
-bool AdviseOnPairs(const AdviceContext& context,
-                   const std::vector<double>& as_read,
-                   OrderJudge& judge) {
+// Returns these.
+std::vector<size_t> AdviseOnPairs(const AdviceContext& context,
+                                  const std::vector<double>& as_read,
+                                  OrderJudge& judge) {
+  // 0: it is not known.
+  const auto is_poor = [&](size_t i) { return as_read[i] > 0 && as_read[i] < kPoorScore; };
+  std::vector<size_t> poor;
+  for (size_t i = 0; i < as_read.size(); ++i) {
+    if (is_poor(i)) poor.push_back(i);
+  }
+  if (poor.empty() || poor.size() > kMostExchanged ||
+      2 * poor.size() * as_read.size() > kMostTried) {
+    return {};
+  }
   std::vector<size_t> pictures;
   std::vector<size_t> tag_of;
-  size_t num_poor = 0;
-  for (size_t i = 0; i < as_read.size(); ++i) {
-    if (as_read[i] >= kPoorScore) continue;
-    ++num_poor;
+  for (const size_t i : poor) {
     for (size_t j = 0; j < as_read.size(); ++j) {
-      if (j == i || (as_read[j] < kPoorScore && j < i)) continue;
+      if (j == i || (is_poor(j) && j < i)) continue;
       pictures.insert(pictures.end(), {i, j});
       tag_of.insert(tag_of.end(), {j, i});
     }
   }
-  if (num_poor == 0 || num_poor > kMostExchanged || pictures.size() > kMostTried) return false;
   const std::vector<double> scores = judge.Score(pictures, tag_of);
   const auto suits = [&](size_t index) {
     return scores[index] >= std::max(kOtherScore, as_read[pictures[index]] + kOtherLead);
   };
-  bool is_told = false;
+  std::vector<size_t> exchanged;
   for (size_t i = 0; i < pictures.size(); i += 2) {
     if (!suits(i) || !suits(i + 1)) continue;
     const std::vector<Photograph>& photographs = context.scene.photographs;
@@ -139,19 +146,26 @@ bool AdviseOnPairs(const AdviceContext& context,
                 "the tags of " + photographs[first].name + " and " + photographs[second].name +
                     " are exchanged: each picture shows what the other's tag looks at",
                 "exchange them");
-    is_told = true;
+    exchanged.insert(exchanged.end(), {first, second});
   }
-  return is_told;
+  return exchanged;
 }
 
 }  // namespace
 
-bool AdviseOnOrder(const AdviceContext& context, const std::vector<PictureFit>& fits) {
+bool AdviseOnOrder(const AdviceContext& context,
+                   std::vector<PictureFit>& fits,
+                   std::vector<TagDoubt>& doubts) {
   std::vector<double> as_read;
   for (const PictureFit& fit : fits) as_read.push_back(fit.nearby);
   if (as_read.size() < 2 || HaveCommonAlternative(fits)) return false;
   OrderJudge judge(context);
-  return AdviseOnShift(context, as_read, judge) || AdviseOnPairs(context, as_read, judge);
+  if (AdviseOnShift(context, as_read, judge)) return true;
+  for (const size_t exchanged : AdviseOnPairs(context, as_read, judge)) {
+    fits[exchanged] = {};
+    if (!doubts.empty()) doubts[exchanged] = {};
+  }
+  return false;
 }
 
 }  // namespace groundglass

@@ -48,9 +48,9 @@ bool IsPlausible(const Standpoint& standpoint);
 // that is known here; single tags are then no news.
 enum class Misreading { kNone, kOfUnit, kOther };
 Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* judge);
-// The model by itself: its size and unit (unless that is told already), its coordinates' steps.
 // True, and told, if its x and y are degrees of longitude and latitude.
 bool AdviseOnDegrees(const AdviceContext& context);
+// The model by itself: its size and unit (unless that is told already), its coordinates' steps.
 void AdviseOnRaster(const AdviceContext& context);
 void AdviseOnModel(const AdviceContext& context, Misreading misreading);
 // Faces that show their backs: they run clockwise, or the model is mirrored about a line that its

@@ -216,7 +216,6 @@ Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* jud
   const bool is_suspicious = as_read.implausible_share >= 0.5 || as_read.plausible_share < 0.7 ||
                              as_read.median_lookat_error > 0.2 || as_read.front_share < 0.35;
   if (!is_suspicious) return Misreading::kNone;
-  if (AdviseOnNoHeights(context)) return Misreading::kOther;
 
   const std::vector<Reading> axes = OtherAxes(context);
   std::vector<Reading> readings = axes;
@@ -237,6 +236,7 @@ Misreading AdviseOnReading(const AdviceContext& context, const PictureJudge* jud
           judge->Fit(ReadOtherwise(context.scene.model, choice->best.model), choice->best.retag))) {
     return Misreading::kNone;
   }
+  if (!choice && AdviseOnNoHeights(context)) return Misreading::kOther;
   // Two changes at once would fit a handful of tags by chance.
   if (!choice && photographs.size() > 3) {
     readings.clear();

@@ -259,7 +259,10 @@ std::vector<Reading> OtherAngles(const AdviceContext& context) {
       [](const auto& a) { return Eigen::Vector2d(a * 180 / M_PI); });
   add("yaw and pitch are in gon (400 to a circle) in the table",
       "they are in degrees: multiply them by 0.9",
-      [](const auto& a) { return Eigen::Vector2d(a * 0.9); });
+      [](const auto& a) {
+        // Tables count from 0 to 400.
+        return Eigen::Vector2d(0.9 * (a.x() < 0 ? a.x() + 360 : a.x()), 0.9 * a.y());
+      });
   return readings;
 }
 

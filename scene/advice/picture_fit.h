@@ -45,8 +45,11 @@ bool HaveCommonAlternative(const std::vector<PictureFit>& fits);
 // Tells these.
 void AdviseOnPictures(const AdviceContext& context, const std::vector<PictureFit>& fits);
 
-// Sound tags that stand beside other photographs than their own. True if there are any.
-bool AdviseOnOrder(const AdviceContext& context, const std::vector<PictureFit>& fits);
+// Sound tags that stand beside other photographs than their own. True if all do; what else was
+// found of two that are exchanged is taken from `fits` and `doubts`.
+bool AdviseOnOrder(const AdviceContext& context,
+                   std::vector<PictureFit>& fits,
+                   std::vector<TagDoubt>& doubts);
 
 // Pictures that the model suits no more than by chance, and why if that can be told. True if so.
 bool AdviseOnNoFit(const AdviceContext& context,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -85,7 +86,7 @@ constexpr std::array<TagKey, 7> kWrittenKeys = {
     TagKey::kX, TagKey::kY, TagKey::kZ, TagKey::kI, TagKey::kJ, TagKey::kK, TagKey::kV};
 
 // Nobody writes more by hand: longer ones were computed.
-constexpr size_t kMostDigits = 9;
+constexpr std::ptrdiff_t kMostDigits = 10;
 
 bool IsWrittenDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
@@ -130,7 +131,7 @@ std::vector<MeantTag> FindMeantTags(const ViewTag& tag) {
   }
   for (const TagKey key : kWrittenKeys) {
     const std::string digits = FormatNumber(GetTagValue(tag, key));
-    if (digits.size() > kMostDigits) continue;
+    if (std::count_if(digits.begin(), digits.end(), IsWrittenDigit) > kMostDigits) continue;
     for (size_t i = 0; i < digits.size(); ++i) {
       if (!IsWrittenDigit(digits[i])) continue;
       const size_t next = i + 1 < digits.size() && digits[i + 1] == '.' ? i + 2 : i + 1;
@@ -143,7 +144,7 @@ std::vector<MeantTag> FindMeantTags(const ViewTag& tag) {
   }
   for (const TagKey key : kWrittenKeys) {
     const std::string digits = FormatNumber(GetTagValue(tag, key));
-    if (digits.size() > kMostDigits) continue;
+    if (std::count_if(digits.begin(), digits.end(), IsWrittenDigit) > kMostDigits) continue;
     for (size_t i = 0; i < digits.size(); ++i) {
       std::string meant = digits;
       if (IsWrittenDigit(digits[i])) AddSpelled(meant.erase(i, 1), "a digit less", key, tag, found);
@@ -156,7 +157,7 @@ std::vector<MeantTag> FindMeantTagsByDigits(const ViewTag& tag) {
   std::vector<MeantTag> found;
   for (const TagKey key : kWrittenKeys) {
     const std::string digits = FormatNumber(GetTagValue(tag, key));
-    if (digits.size() > kMostDigits) continue;
+    if (std::count_if(digits.begin(), digits.end(), IsWrittenDigit) > kMostDigits) continue;
     for (size_t i = digits[0] == '-' ? 1 : 0; i <= digits.size(); ++i) {
       for (char digit = '0'; digit <= '9'; ++digit) {
         std::string meant = digits;

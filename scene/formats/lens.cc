@@ -105,8 +105,11 @@ Lens ReadLens(const std::filesystem::path& file) {
   if (!(lens.aspect > 0)) {
     throw Error(file, line_of_key["a"], "key 'a': aspect (width / height) must be above 0");
   }
-  constexpr double kMostK1 = 3;  // fisheye lenses reach half of it
-  if (std::abs(lens.k1) > kMostK1) {
+  // At the frame's sides k1 moves a point by this share of its distance from the axis. k1 goes by
+  // focal lengths, so that long lenses have large ones.
+  constexpr double kMostAtSide = 1;
+  const double side = std::tan(lens.view_angle_deg * M_PI / 360);
+  if (std::abs(lens.k1) * side * side > kMostAtSide) {
     throw Error(
         file,
         line_of_key["k1"],

@@ -113,12 +113,13 @@ ModelKind KindOfXml(std::string_view text) {
 
 ModelKind KindOfJson(std::string_view text) {
   const auto has = [&](std::string_view word) { return text.find(word) != std::string::npos; };
+  // First, since names in it may be any of the others' words.
+  if (has("\"asset\"") && (has("\"meshes\"") || has("\"nodes\""))) return {".gltf", "a glTF", ""};
   if (has("\"CityJSON\"")) return {"", "CityJSON", kFromCityJson};
   if (has("\"sfm_data_version\"")) return {"", "a file of OpenMVG's cameras", kExportCameras};
   if (has("\"shots\"") && has("\"cameras\""))
     return {"", "a file of OpenSfM's cameras", kExportCameras};
   if (has("\"FeatureCollection\"")) return {"", "GeoJSON", kExportModel};
-  if (has("\"asset\"") && (has("\"meshes\"") || has("\"nodes\""))) return {".gltf", "a glTF", ""};
   return {};
 }
 

@@ -40,8 +40,7 @@ void RefuseUntagged(const Scene& scene, const std::string& name, const std::stri
 std::string ExplainComma(const std::string& name, const std::vector<PhotographName>& known) {
   for (const PhotographName& photograph : known) {
     const std::string& whole = photograph.name;
-    const size_t start = whole.find(name);
-    if (start == std::string::npos || whole.find(',') == std::string::npos) continue;
+    if (!whole.starts_with(name + ",")) continue;
     return " (a comma parts two names here; to be named alone, " + Quote(whole) +
            " and its tag want names without one)";
   }

@@ -88,9 +88,16 @@ struct GltfHeld {
   size_t num_lines = 0;
 };
 
-void CountNode(const tinygltf::Model& gltf, int index, int depth, GltfHeld& held) {
+// `is_counted`: of each node, so that damaged files with loops end.
+void CountNode(const tinygltf::Model& gltf,
+               int index,
+               int depth,
+               std::vector<bool>& is_counted,
+               GltfHeld& held) {
   constexpr int kDeepest = 64;
   if (depth > kDeepest || index < 0 || static_cast<size_t>(index) >= gltf.nodes.size()) return;
+  if (is_counted[static_cast<size_t>(index)]) return;
+  is_counted[static_cast<size_t>(index)] = true;
   const tinygltf::Node& node = gltf.nodes[static_cast<size_t>(index)];
   if (node.mesh >= 0 && static_cast<size_t>(node.mesh) < gltf.meshes.size()) {
     ++held.num_meshes;
@@ -100,12 +107,13 @@ void CountNode(const tinygltf::Model& gltf, int index, int depth, GltfHeld& held
         ++held.num_lines;
     }
   }
-  for (const int child : node.children) CountNode(gltf, child, depth + 1, held);
+  for (const int child : node.children) CountNode(gltf, child, depth + 1, is_counted, held);
 }
 
 GltfHeld CountScene(const tinygltf::Model& gltf, size_t scene) {
   GltfHeld held;
-  for (const int node : gltf.scenes[scene].nodes) CountNode(gltf, node, 0, held);
+  std::vector<bool> is_counted(gltf.nodes.size());
+  for (const int node : gltf.scenes[scene].nodes) CountNode(gltf, node, 0, is_counted, held);
   return held;
 }
 

@@ -276,15 +276,16 @@ TEST(Told, AStandardDeviationLargerThanTheBuilding) {
   const TemporaryFolder work;
   const fs::path scene = work / "scene";
   CopyBrick(scene, {"s1"});
-  EXPECT_THAT(RunProgram({"register",
-                          scene.string(),
-                          "-o",
-                          (work / "out").string(),
-                          "--dry-run",
-                          "--sigma-position",
-                          "1000"})
-                  .err,
-              HasSubstr("--sigma-position 1000: so many metres are more than the whole building"));
+  EXPECT_THAT(
+      RunProgram({"register",
+                  scene.string(),
+                  "-o",
+                  (work / "out").string(),
+                  "--dry-run",
+                  "--sigma-position",
+                  "1000"})
+          .err,
+      HasSubstr("--sigma-position 1000: so many metres are several times the whole building"));
 }
 
 TEST(Told, AWrongUnitBeforeTheWorkBegins) {
