@@ -163,6 +163,7 @@ bool AdviseOnOrder(const AdviceContext& context,
   if (AdviseOnShift(context, as_read, judge)) return true;
   for (const size_t exchanged : AdviseOnPairs(context, as_read, judge)) {
     fits[exchanged] = {};
+    fits[exchanged].is_explained = true;
     if (!doubts.empty()) doubts[exchanged] = {};
   }
   return false;

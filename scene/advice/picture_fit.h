@@ -18,6 +18,7 @@ struct AlternativeFit {
 };
 // How the readings of one photograph fit its picture's edges.
 struct PictureFit {
+  bool is_explained = false;  // it is another photograph's tag, which is told
   double as_read = 0;
   double nearby = 0;  // as read, and only within kTagReach of the tag's place
   AlternativeFit upside_down;

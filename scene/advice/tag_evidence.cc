@@ -160,6 +160,7 @@ void WeighTags(const AdviceContext& context,
                std::vector<TagDoubt>& doubts) {
   if (doubts.empty() || HaveCommonAlternative(fits)) return;
   for (size_t i = 0; i < doubts.size(); ++i) {
+    if (fits[i].is_explained) continue;
     const Photograph& photograph = context.scene.photographs[i];
     try {
       WeighTag(context, photograph, fits[i], ExpectedScore(fits, i), doubts[i]);
