@@ -25,13 +25,13 @@ void CheckFinite(double value, const std::string& field) {
 }
 
 void CheckAtLeast(double value, double least, const std::string& field) {
-  CheckFinite(value, field);
+  if (std::isinf(value)) CheckFinite(value, field);
   if (value >= least) return;
   Refuse(field, "at least " + FormatNumber(least), value);
 }
 
 void CheckAbove(double value, double bound, const std::string& field) {
-  CheckFinite(value, field);
+  if (std::isinf(value)) CheckFinite(value, field);
   if (value > bound) return;
   Refuse(field, "above " + FormatNumber(bound), value);
 }
