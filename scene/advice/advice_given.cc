@@ -49,22 +49,15 @@ void AdviseOnGivenCameras(const AdviceContext& context, const PictureJudge& judg
   constexpr double kMost = 0.8;
   const std::vector<const Photograph*> photographs = SomePhotographs(context.scene);
   if (photographs.size() < kFewestTags) return;
-  const std::vector<Reading> readings = OtherUnits(context, AxesOptions(context.options));
+  std::vector<Reading> readings = OtherUnits(context, AxesOptions(context.options));
   const double as_read = ShareThatSees(context, photographs, {});
   const std::vector<double> fits_as_read = judge.Fit(context.scene.model, {}, kTagReach);
   if (as_read >= kFew && PictureJudge::Mean(fits_as_read) >= kFittingScore) return;
-  const Reading* best = nullptr;
-  double best_fit = 0;
-  for (const Reading& reading : readings) {
-    if (ShareThatSees(context, photographs, reading.model) < kMost) continue;
-    // Other sizes about the same origin look alike: only the pictures tell them apart.
-    const std::vector<double> fits =
-        judge.Fit(ReadOtherwise(context.scene.model, reading.model), {}, kTagReach);
-    if (PictureJudge::Mean(fits) <= best_fit || !PictureJudge::IsClearlyBetter(fits, fits_as_read))
-      continue;
-    best = &reading;
-    best_fit = PictureJudge::Mean(fits);
-  }
+  // Other sizes about the same origin look alike: only the pictures tell them apart.
+  std::erase_if(readings, [&](const Reading& reading) {
+    return ShareThatSees(context, photographs, reading.model) < kMost;
+  });
+  const Reading* best = FindClearlyBest(readings, context.scene.model, judge, fits_as_read, 0);
   const std::string file = context.scene.model_file.string();
   if (best) {
     context.Add(Advice::Severity::kScene,

@@ -58,16 +58,7 @@ bool AdviseOnNoFit(const AdviceContext& context,
   std::vector<Reading> readings = OtherAxes(context);
   for (const Reading& reading : Turned(context)) readings.push_back(reading);
   for (const Reading& reading : OtherAngles(context)) readings.push_back(reading);
-  const Reading* best = nullptr;
-  double best_fit = kFits;
-  for (const Reading& reading : readings) {
-    const std::vector<double> fits =
-        judge.Fit(ReadOtherwise(context.scene.model, reading.model), reading.retag, kTagReach);
-    if (PictureJudge::Mean(fits) < best_fit || !PictureJudge::IsClearlyBetter(fits, as_read))
-      continue;
-    best = &reading;
-    best_fit = PictureJudge::Mean(fits);
-  }
+  const Reading* best = FindClearlyBest(readings, context.scene.model, judge, as_read, kFits);
   const std::string file = context.scene.model_file.string();
   if (best) {
     context.Add(Advice::Severity::kScene,

@@ -3,6 +3,8 @@
 // What else a scene may have been meant to be.
 #include "scene/advice/advice_readings.h"
 
+#include "scene/advice/advice_judge.h"
+#include "scene/advice/picture_fit.h"
 #include "scene/frames.h"
 #include "scene/shell_word.h"
 #include "scene/text.h"
@@ -299,6 +301,24 @@ std::vector<Reading> HeightsDownwards(const AdviceContext& context) {
                                  : "turn it over in the program that drew it";
   }
   return readings;
+}
+
+const Reading* FindClearlyBest(const std::vector<Reading>& readings,
+                               const PolygonModel& model,
+                               const PictureJudge& judge,
+                               const std::vector<double>& fits_as_read,
+                               double least_mean) {
+  const Reading* best = nullptr;
+  double best_mean = least_mean;
+  for (const Reading& reading : readings) {
+    const std::vector<double> fits =
+        judge.Fit(ReadOtherwise(model, reading.model), reading.retag, kTagReach);
+    const double mean = PictureJudge::Mean(fits);
+    if (mean <= best_mean || !PictureJudge::IsClearlyBetter(fits, fits_as_read)) continue;
+    best = &reading;
+    best_mean = mean;
+  }
+  return best;
 }
 
 // All heights off by the same: the look-at points lie all above the model, or all below it.

@@ -10,6 +10,8 @@
 
 namespace groundglass {
 
+class PictureJudge;
+
 // Another reading of the whole scene.
 struct Reading {
   OtherReading model;
@@ -39,6 +41,13 @@ std::vector<Reading> OtherAngles(const AdviceContext& context);
 std::vector<Reading> LookatsAsDirections(const AdviceContext& context);
 // The model upside down, with heights that count downwards.
 std::vector<Reading> HeightsDownwards(const AdviceContext& context);
+// Of these the one that the pictures suit best, if they suit it clearly better than the scene as it
+// was read (`fits_as_read`, PictureJudge::Fit) and their mean is above `least_mean`; null if none.
+const Reading* FindClearlyBest(const std::vector<Reading>& readings,
+                               const PolygonModel& model,
+                               const PictureJudge& judge,
+                               const std::vector<double>& fits_as_read,
+                               double least_mean);
 // All heights off by the same: the look-at points lie all above the model, or all below it.
 std::vector<Reading> OtherDatums(const AdviceContext& context,
                                  const std::vector<const Photograph*>& photographs);

@@ -11,6 +11,21 @@
 #include <vector>
 
 namespace groundglass {
+
+ViewTag TagOfLens(const Lens& lens) {
+  ViewTag tag;
+  tag.view_angle_deg = lens.view_angle_deg;
+  tag.aspect = lens.aspect;
+  tag.shift_x = lens.shift_x;
+  tag.shift_y = lens.shift_y;
+  tag.k1 = lens.k1;
+  tag.k2 = lens.k2;
+  tag.k3 = lens.k3;
+  tag.p1 = lens.p1;
+  tag.p2 = lens.p2;
+  return tag;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,17 +51,7 @@ Lens LensOfCamera(const Camera& camera, const fs::path& file) {
 }
 
 Camera CameraOfLens(const Lens& lens, int width_px, int height_px) {
-  ViewTag tag;
-  tag.view_angle_deg = lens.view_angle_deg;
-  tag.aspect = lens.aspect;
-  tag.shift_x = lens.shift_x;
-  tag.shift_y = lens.shift_y;
-  tag.k1 = lens.k1;
-  tag.k2 = lens.k2;
-  tag.k3 = lens.k3;
-  tag.p1 = lens.p1;
-  tag.p2 = lens.p2;
-  return CameraFromTag(tag, width_px, height_px);
+  return CameraFromTag(TagOfLens(lens), width_px, height_px);
 }
 
 // The number or the list of numbers behind a YAML key, from a place in the text on; a list may run

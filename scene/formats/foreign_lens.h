@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/formats/lens.h"
+#include "scene/view_tag.h"
 
 #include <array>
 #include <filesystem>
@@ -11,6 +12,9 @@
 #include <string_view>
 
 namespace groundglass {
+
+// The tag of any photograph that the lens took, without its place.
+ViewTag TagOfLens(const Lens& lens);
 
 // Other programs' files of one camera: COLMAP's cameras.txt, OpenCV's YAML (camera_matrix), ROS'
 // camera_info, Kalibr's camchain. They are of a picture of one size in pixels.

@@ -118,18 +118,7 @@ Lens ReadLens(const std::filesystem::path& file) {
             "wide lens");
   }
   // What no view file may say, no lens file may.
-  ViewTag tag;
-  tag.lookat_in_site = {0, 1, 0};
-  tag.view_angle_deg = lens.view_angle_deg;
-  tag.aspect = lens.aspect;
-  tag.shift_x = lens.shift_x;
-  tag.shift_y = lens.shift_y;
-  tag.k1 = lens.k1;
-  tag.k2 = lens.k2;
-  tag.k3 = lens.k3;
-  tag.p1 = lens.p1;
-  tag.p2 = lens.p2;
-  if (const std::optional<TagFault> fault = FindTagFault(tag)) {
+  if (const std::optional<TagFault> fault = FindTagFault(TagOfLens(lens))) {
     throw Error(file, line_of_key[fault->key], "key " + Quote(fault->key) + ": " + fault->message);
   }
   return lens;
