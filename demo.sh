@@ -65,7 +65,8 @@ END
 build_it=$("$groundglass" help calibrate | sed -n 's/.*this builds it: //p')
 if [[ -n $build_it ]]; then
   cat <<END
-The demo does without view, where, calibrate, synth and parts of render and convert; this builds them:
+The demo does without view, where, calibrate, synth and parts of render, evaluate and convert; this
+builds them:
   $build_it
 
 END

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of Groundglass.
 #include "cli/commands.h"
+#include "cli/evaluate_arguments.h"
 #include "cli/json_output.h"
-#include "cli/model_arguments.h"
 #include "cli/option_range.h"
-#include "evaluate/calibration_plot.h"
 #include "evaluate/error_plot.h"
 #include "evaluate/evaluate.h"
-#include "evaluate/scene_summary.h"
-#include "evaluate/trials.h"
 #include "scene/error.h"
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/model_io.h"
-#include "scene/formats/scene_folder.h"
 #include "viewer/renderer.h"
 
 #include <cstdio>
@@ -25,20 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct EvaluateArguments {
-  CommonOptions common;
-  ModelArguments model_arguments;
-  std::vector<std::string> found;
-  std::vector<std::string> truths;  // one for each of them; empty: in them or beside them
-  std::string model;
-  std::string plot_file;            // empty: none
-  std::string calibration_file;     // the same, of trials
-  std::vector<std::string> beside;  // JSON of other trials, for the calibration plot
-  // Monte-Carlo trials of registration; 0: none. `found` is then the scene itself.
-  int num_trials = 0;
-  TrialOptions trials;
-};
-
 // The model beside the truth folder, as in every scene.
 fs::path FindModel(const fs::path& truth_folder) {
   const fs::path scene_folder =
@@ -48,37 +30,6 @@ fs::path FindModel(const fs::path& truth_folder) {
     if (fs::exists(file)) return file;
   }
   throw Error(scene_folder, "no model beside the truth folder; name it with --model");
-}
-
-// "wiesner" of "scenes/wiesner/".
-std::string SceneName(const fs::path& folder) {
-  const fs::path whole = fs::absolute(folder / ".").lexically_normal();
-  return whole.parent_path().filename().string();
-}
-
-// The truth that the `index`-th of what was found is judged by.
-fs::path TruthFolder(const EvaluateArguments& arguments, size_t index) {
-  if (!arguments.truths.empty()) return arguments.truths[index];
-  const fs::path found = fs::absolute(fs::path(arguments.found[index]) / ".").lexically_normal();
-  for (const fs::path& folder : {found.parent_path(), found.parent_path().parent_path()}) {
-    if (fs::is_directory(folder / "truth")) return folder / "truth";
-  }
-  throw Error(arguments.found[index], "no truth folder in it or beside it; name it with --truth");
-}
-
-// The polygon model of a scene, its oddities told.
-PolygonModel ReadModelOf(const EvaluateArguments& arguments, const fs::path& truth_folder) {
-  const fs::path model_file =
-      arguments.model.empty() ? FindModel(truth_folder) : fs::path(arguments.model);
-  if (arguments.model.empty()) {
-    const auto others = DescribeOtherModels(model_file.parent_path(), model_file);
-    if (others) std::fprintf(stderr, "groundglass: %s\n", others->c_str());
-  }
-  const ModelReading reading = ReadModel(model_file, arguments.model_arguments.Options());
-  for (const std::string& warning : reading.warnings) {
-    std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
-  }
-  return reading.model;
 }
 
 int EvaluateFound(const EvaluateArguments& arguments) {
@@ -101,80 +52,6 @@ int EvaluateFound(const EvaluateArguments& arguments) {
   }
   std::fputs(arguments.common.json ? FormatEvaluationJson(evaluation, model).c_str()
                                    : FormatEvaluationTable(evaluation, model).c_str(),
-             stdout);
-  return kExitDone;
-}
-
-TrialOptions TrialOptionsOf(const EvaluateArguments& arguments) {
-  TrialOptions options = arguments.trials;
-  options.num_trials = arguments.num_trials;
-  options.seed = arguments.common.seed;
-  options.Check();
-  return options;
-}
-
-Scene ReadTrialScene(const EvaluateArguments& arguments, size_t index) {
-  SceneOptions options;
-  if (!arguments.model.empty()) options.model_file = arguments.model;
-  options.model = arguments.model_arguments.Options();
-  return ReadScene(arguments.found[index], options);
-}
-
-void WriteCalibration(const EvaluateArguments& arguments,
-                      const std::string& name,
-                      const std::vector<Trial>& trials) {
-  std::vector<CalibrationCurve> curves = {CalibrationCurveOf(name, trials)};
-  for (const std::string& file : arguments.beside) {
-    curves.push_back(ReadCalibrationCurve(fs::path(file).stem().string(), file));
-  }
-  WriteFileAtomically(arguments.calibration_file, FormatCalibrationPlot(curves));
-}
-
-int RunTrialsOfScene(const EvaluateArguments& arguments) {
-  const TrialOptions options = TrialOptionsOf(arguments);
-  const std::string& found = arguments.found.front();
-  const Scene scene = ReadTrialScene(arguments, 0);
-  const std::vector<Trial> trials = RunTrials(scene,
-                                              ReadTruth(TruthFolder(arguments, 0)),
-                                              options,
-                                              MakeProgress(arguments.common, "notebooks"));
-  if (!arguments.plot_file.empty()) {
-    WriteFileAtomically(arguments.plot_file,
-                        FormatErrorPlot(PlotPointsOf(trials),
-                                        "Trials of " + found + ", px at 640 wide",
-                                        UnitName(scene.model.unit)));
-  }
-  if (!arguments.calibration_file.empty()) WriteCalibration(arguments, SceneName(found), trials);
-  std::fputs(arguments.common.json ? FormatTrialsJson(trials, options).c_str()
-                                   : FormatTrialsTable(trials, options).c_str(),
-             stdout);
-  return kExitDone;
-}
-
-// Several scenes, one table: what was found in each, or trials of each.
-int EvaluateScenes(const EvaluateArguments& arguments) {
-  std::vector<JudgedScene> scenes;
-  std::vector<Trial> all_trials;
-  for (size_t i = 0; i < arguments.found.size(); ++i) {
-    const std::string& found = arguments.found[i];
-    const Truth truth = ReadTruth(TruthFolder(arguments, i));
-    if (arguments.num_trials > 0) {
-      const std::vector<Trial> trials =
-          RunTrials(ReadTrialScene(arguments, i),
-                    truth,
-                    TrialOptionsOf(arguments),
-                    MakeProgress(arguments.common, found + ": notebooks"));
-      scenes.push_back(JudgedSceneOf(found, trials));
-      all_trials.insert(all_trials.end(), trials.begin(), trials.end());
-    } else {
-      const PolygonModel model = ReadModelOf(arguments, truth.folder);
-      scenes.push_back(JudgedSceneOf(found, Evaluate(found, truth, model), truth));
-    }
-  }
-  if (!arguments.calibration_file.empty()) {
-    WriteCalibration(arguments, std::to_string(arguments.found.size()) + " scenes", all_trials);
-  }
-  std::fputs((arguments.common.json ? FormatScenesJson(scenes) : FormatScenesTable(scenes)).c_str(),
              stdout);
   return kExitDone;
 }
@@ -218,6 +95,29 @@ int TellEvaluation(const EvaluateArguments& arguments) {
 }
 
 }  // namespace
+
+fs::path TruthFolder(const EvaluateArguments& arguments, size_t index) {
+  if (!arguments.truths.empty()) return arguments.truths[index];
+  const fs::path found = fs::absolute(fs::path(arguments.found[index]) / ".").lexically_normal();
+  for (const fs::path& folder : {found.parent_path(), found.parent_path().parent_path()}) {
+    if (fs::is_directory(folder / "truth")) return folder / "truth";
+  }
+  throw Error(arguments.found[index], "no truth folder in it or beside it; name it with --truth");
+}
+
+PolygonModel ReadModelOf(const EvaluateArguments& arguments, const fs::path& truth_folder) {
+  const fs::path model_file =
+      arguments.model.empty() ? FindModel(truth_folder) : fs::path(arguments.model);
+  if (arguments.model.empty()) {
+    const auto others = DescribeOtherModels(model_file.parent_path(), model_file);
+    if (others) std::fprintf(stderr, "groundglass: %s\n", others->c_str());
+  }
+  const ModelReading reading = ReadModel(model_file, arguments.model_arguments.Options());
+  for (const std::string& warning : reading.warnings) {
+    std::fprintf(stderr, "groundglass: %s\n", warning.c_str());
+  }
+  return reading.model;
+}
 
 void AddEvaluateCommand(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<EvaluateArguments>();
@@ -286,7 +186,7 @@ void AddEvaluateCommand(CLI::App& app, int& exit_status) {
     exit_status = RunWithThreads(arguments->common, [&] {
       if (arguments->common.dry_run) return TellEvaluation(*arguments);
       if (arguments->found.size() > 1) return EvaluateScenes(*arguments);
-      return arguments->num_trials > 0 ? RunTrialsOfScene(*arguments) : EvaluateFound(*arguments);
+      return arguments->num_trials > 0 ? EvaluateTrials(*arguments) : EvaluateFound(*arguments);
     });
   });
 }

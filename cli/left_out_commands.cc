@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/convert_arguments.h"
 #include "cli/elevation_arguments.h"
+#include "cli/evaluate_arguments.h"
 #include "cli/left_out.h"
 #include "cli/montage_arguments.h"
 
@@ -59,6 +60,10 @@ int RenderMontage(const MontageArguments&,
                   const fs::path&) {
   throw LeftOut("render --over");
 }
+
+int EvaluateTrials(const EvaluateArguments&) { throw LeftOut("evaluate --trials"); }
+
+int EvaluateScenes(const EvaluateArguments&) { throw LeftOut("evaluate of more than one FOUND"); }
 
 void AddCameraFormatOption(CLI::App* command, std::string& format) {
   command->add_option(

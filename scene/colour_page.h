@@ -19,10 +19,11 @@ class ColourPage {
   // Lays a face of so many corners on it; linear: red, green and blue, linear light. page: the
   // number that the page will have.
   FaceTexture Add(const std::array<float, 3>& linear, int page, size_t num_corners) {
-    const double x = static_cast<double>(colours_.size() % kWidth) + 0.5;
-    const double y = static_cast<double>(colours_.size() / kWidth) + 0.5;
+    const size_t column = colours_.size() % kWidth;
+    const size_t row = colours_.size() / kWidth;
+    const Eigen::Vector2d centre(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     colours_.push_back(linear);
-    return {page, std::vector<Eigen::Vector2d>(num_corners, {x, y})};
+    return {page, std::vector<Eigen::Vector2d>(num_corners, centre)};
   }
 
   // sRGB; what does not fit into 0 to 1 is cut.

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/convert_arguments.h"
 #include "cli/elevation_arguments.h"
+#include "cli/evaluate_arguments.h"
 #include "cli/montage_arguments.h"
 #include "tests/support/temporary_folder.h"
 
@@ -95,6 +96,11 @@ TEST(LeftOut, PartsOfRenderSaySo) {
               StartsWith("render --elevation"));
   EXPECT_THAT(WhatIsLeftOut([] { RenderMontage({}, {}, "", {}, "hall.jpg"); }),
               StartsWith("render --over"));
+}
+
+TEST(LeftOut, PartsOfEvaluateSaySo) {
+  EXPECT_THAT(WhatIsLeftOut([] { EvaluateTrials({}); }), StartsWith("evaluate --trials: "));
+  EXPECT_THAT(WhatIsLeftOut([] { EvaluateScenes({}); }), StartsWith("evaluate of more than one"));
 }
 
 TEST(LeftOut, WhatConvertDoesForOtherProgramsSaysSo) {

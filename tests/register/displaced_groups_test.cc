@@ -194,7 +194,7 @@ struct TwoWaysTest : FindDisplacedGroupsTest {
       better.second_best = better.aligned;
       return std::vector<PhotographAlignment>(4, better);
     };
-    const auto displaced = FindDisplacedGroups({}, align_all, edge_model, alignments);
+    auto displaced = FindDisplacedGroups({}, align_all, edge_model, alignments);
     EXPECT_EQ(num_trials, 2);
     return displaced;
   }

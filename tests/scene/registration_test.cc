@@ -262,8 +262,7 @@ TEST(RegistrationFile, WhatTiedThePhotographsComesBack) {
 TEST(RegistrationFile, BadOnesGiveOneLine) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& text) {
-    const std::string thrown =
-        ThrownMessage([&] { ReadRegistrations(folder.Write("r.json", text)); });
+    std::string thrown = ThrownMessage([&] { ReadRegistrations(folder.Write("r.json", text)); });
     EXPECT_EQ(thrown.find('\n'), std::string::npos);
     return thrown;
   };

@@ -41,7 +41,7 @@ class MasksInAJournal : public testing::Test {
     MaskPaint& paint = desk.Paint(0);
     paint.Lasso({{2, 2}, {20, 3}, {9, 30}}, true);
     paint.Undo();
-    const std::vector<uint8_t> left = paint.ignore().values;
+    std::vector<uint8_t> left = paint.ignore().values;
     paint.BeginStroke();
     paint.Brush({50, 30}, {55, 30}, 3, true);
     return left;

@@ -91,7 +91,8 @@ Truth TraceTruth(const TexturedModel& model,
   for (int y = 0; y < camera.height_px; ++y) {
     for (int x = 0; x < camera.width_px; ++x) {
       for (int i = 0; i < side * side; ++i) {
-        const Eigen::Vector2d at(x + (i % side + 0.5) / side, y + (i / side + 0.5) / side);
+        const int row = i / side;
+        const Eigen::Vector2d at(x + (i % side + 0.5) / side, y + (row + 0.5) / side);
         const auto hit = visibility.FirstHit(eye, UnprojectToWorld(camera, at));
         Eigen::Vector3d seen(0.3, 0.35, 0.4);
         if (hit) {

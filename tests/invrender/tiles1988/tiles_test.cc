@@ -154,7 +154,7 @@ TEST(TileFile, SaysWhatIsWrongWithAFile) {
               testing::HasSubstr("10 bytes are no whole number of tiles of 96"));
   EXPECT_THAT(ThrownMessage([&] { const MappedTiles tiles(folder / "none.tiles"); }),
               testing::HasSubstr("none.tiles: cannot read this as a file of tiles"));
-  std::ofstream(folder / "empty.tiles");
+  std::ofstream(folder / "empty.tiles").flush();
   EXPECT_TRUE(MappedTiles(folder / "empty.tiles").Tiles().empty());
 }
 

@@ -75,7 +75,8 @@ struct ReadingFixture {
     return MakeCameraPrior(tag, kSmallWidth, kSmallHeight, LengthUnit::kFoot, {}, {});
   }
 
-  std::vector<TagReading> Read(const ViewTag& written, std::vector<NamedTag> others = {}) const {
+  std::vector<TagReading> Read(const ViewTag& written,
+                               const std::vector<NamedTag>& others = {}) const {
     return ReadTag(
         edge_model,
         evidence,

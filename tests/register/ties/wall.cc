@@ -54,8 +54,10 @@ Image8 PhotographPlaster(const Camera& camera, double recess) {
     for (int x = 0; x < camera.width_px; ++x) {
       float light = 0;
       for (int ray = 0; ray < kRays * kRays; ++ray) {
-        const Eigen::Vector3d direction = UnprojectToWorld(
-            camera, {x + (ray % kRays + 0.5) / kRays, y + (ray / kRays + 0.5) / kRays});
+        const int column = ray % kRays;
+        const int row = ray / kRays;
+        const Eigen::Vector3d direction =
+            UnprojectToWorld(camera, {x + (column + 0.5) / kRays, y + (row + 0.5) / kRays});
         const Eigen::Vector3d at = position + (recess - position.y()) / direction.y() * direction;
         light += PlasterLight(at.x(), at.z());
       }

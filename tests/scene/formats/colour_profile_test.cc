@@ -35,14 +35,14 @@ constexpr cmsCIExyYTRIPLE kSrgbPrimaries = {{0.64, 0.33, 1}, {0.30, 0.60, 1}, {0
 Bytes GammaProfile(double gamma) {
   cmsToneCurve* curve = cmsBuildGamma(nullptr, gamma);
   cmsToneCurve* curves[] = {curve, curve, curve};
-  const Bytes bytes = Saved(cmsCreateRGBProfile(&kD65, &kSrgbPrimaries, curves));
+  Bytes bytes = Saved(cmsCreateRGBProfile(&kD65, &kSrgbPrimaries, curves));
   cmsFreeToneCurve(curve);
   return bytes;
 }
 
 Bytes GreyProfile(double gamma) {
   cmsToneCurve* curve = cmsBuildGamma(nullptr, gamma);
-  const Bytes bytes = Saved(cmsCreateGrayProfile(&kD65, curve));
+  Bytes bytes = Saved(cmsCreateGrayProfile(&kD65, curve));
   cmsFreeToneCurve(curve);
   return bytes;
 }

@@ -164,7 +164,7 @@ TEST(Stl, ReadsTextAndBinary) {
 TEST(ReadModel, BadMeshesGiveOneLine) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& name, const std::string& bytes) {
-    const std::string thrown = ThrownMessage([&] { ReadModel(folder.Write(name, bytes)); });
+    std::string thrown = ThrownMessage([&] { ReadModel(folder.Write(name, bytes)); });
     EXPECT_EQ(thrown.find('\n'), std::string::npos) << thrown;
     return thrown;
   };

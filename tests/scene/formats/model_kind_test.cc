@@ -83,7 +83,9 @@ TEST(ModelKind, WhatIsNotReadIsNamedWithWhatToDo) {
       {R"({"type": "CityJSON", "version": "2.0"})", "CityJSON"},
       {"OFF\n3 1 0\n", "an OFF file"},
       {"LASF", "a cloud of points"}};
-  for (const auto& [bytes, what] : kinds) {
+  for (const auto& kind : kinds) {
+    const std::string& bytes = kind.first;
+    const std::string& what = kind.second;
     for (const char* name : {"m.obj", "m.osu", "m.model"}) {
       EXPECT_THAT(ThrownMessage([&] { ReadModel(folder.Write(name, bytes)); }),
                   AllOf(HasSubstr("this is " + what), HasSubstr("; "), HasSubstr("export")));
