@@ -16,22 +16,24 @@
 namespace groundglass {
 namespace {
 
-// All parameter blocks, in the order of their columns. The state's arrays are the problem's own.
-std::vector<double*> BlocksOf(JointState& state, const ceres::Problem& problem) {
-  std::vector<double*> blocks;
-  const auto add = [&](auto& values) { blocks.push_back(values.data()); };
-  const auto add_edge = [&](MovingEdge& edge) {
-    if (problem.HasParameterBlock(edge.displacement.data())) add(edge.displacement);
-  };
-  for (MovingEdge& edge : state.edges) add_edge(edge);
-  for (MovingTie& tie : state.ties) add(tie.move);
-  for (MovingGroup& group : state.groups) {
-    if (problem.HasParameterBlock(group.move.data())) add(group.move);
+// The problem's blocks; the state's arrays are the problem's own. No cost holds two edges, or two
+// ties, or one of each.
+NormalEquations EquationsOf(JointState& state, ceres::Problem& problem) {
+  std::vector<double*> eliminated;
+  for (MovingEdge& edge : state.edges) {
+    double* block = edge.displacement.data();
+    if (problem.HasParameterBlock(block)) eliminated.push_back(block);
   }
-  add_edge(state.ground);
-  for (MovingPhotograph& moving : state.moving) add(moving.own);
-  for (LensParameters& lens : state.lenses) add(lens);
-  return blocks;
+  for (MovingTie& tie : state.ties) eliminated.push_back(tie.move.data());
+  std::vector<double*> kept;
+  for (MovingGroup& group : state.groups) {
+    if (problem.HasParameterBlock(group.move.data())) kept.push_back(group.move.data());
+  }
+  double* ground = state.ground.displacement.data();
+  if (problem.HasParameterBlock(ground)) kept.push_back(ground);
+  for (MovingPhotograph& moving : state.moving) kept.push_back(moving.own.data());
+  for (LensParameters& lens : state.lenses) kept.push_back(lens.data());
+  return NormalEquations(problem, eliminated, kept);
 }
 
 // What all edges may lie off together (WhitenedSystematicModes).
@@ -83,7 +85,7 @@ Clusters FindClusters(const NormalEquations& equations,
 // jackknife by clusters, CR3: Bell and McCaffrey, Survey Methodology 2002). What is left alone is
 // too little where a cluster decides much: the camera has followed it.
 Eigen::MatrixXd LeaveOutUpdates(const NormalEquations& equations, const Clusters& clusters) {
-  Eigen::MatrixXd moves(equations.NumColumns(), static_cast<Eigen::Index>(clusters.size()));
+  Eigen::MatrixXd moves(equations.NumKept(), static_cast<Eigen::Index>(clusters.size()));
   tbb::parallel_for(size_t{0}, clusters.size(), [&](size_t i) {
     moves.col(static_cast<Eigen::Index>(i)) = equations.LeaveOutUpdate(clusters[i]);
   });
@@ -96,6 +98,39 @@ Eigen::SparseMatrix<double> InformationOf(const NormalEquations& equations,
   std::vector<NormalEquations::Rows> rows;
   for (const auto& cluster : clusters) rows.insert(rows.end(), cluster.begin(), cluster.end());
   return equations.InformationOf(rows);
+}
+
+constexpr int kNumParts = kNumCameraParameters + kNumLensParameters;
+
+// Of a photograph's own parameters and its lens's. by_mode, by_cluster: what all that is kept moves
+// by; information: of all clusters.
+Eigen::MatrixXd CovarianceOfParts(const MovingPhotograph& moving,
+                                  const JointState& state,
+                                  const NormalEquations& equations,
+                                  const Eigen::MatrixXd& by_mode,
+                                  const Eigen::MatrixXd& by_cluster,
+                                  const Eigen::SparseMatrix<double>& information) {
+  const Eigen::Index own = equations.ColumnOf(moving.own.data());
+  const Eigen::Index lens = equations.ColumnOf(state.lenses[moving.lens].data());
+  const auto rows_of_parts = [&](const Eigen::MatrixXd& columns) {
+    Eigen::MatrixXd rows(kNumParts, columns.cols());
+    rows << columns.middleRows<kNumCameraParameters>(own),
+        columns.middleRows<kNumLensParameters>(lens);
+    return rows;
+  };
+  Eigen::MatrixXd columns(equations.NumKept(), kNumParts);
+  columns << equations.Covariance().middleCols<kNumCameraParameters>(own),
+      equations.Covariance().middleCols<kNumLensParameters>(lens);
+  Eigen::MatrixXd covariance = rows_of_parts(columns);
+  const Eigen::MatrixXd shared = rows_of_parts(by_mode);
+  const Eigen::MatrixXd cluster = rows_of_parts(by_cluster);
+  // The normal equations count on residuals of the size that they are given already: the jackknife
+  // measures the same errors again, and adds what it finds beyond that.
+  covariance +=
+      shared * shared.transpose() + CovarianceExcess(cluster * cluster.transpose(),
+                                                     columns.transpose() * (information * columns),
+                                                     covariance);
+  return covariance;
 }
 
 // A photograph's matched samples, as its camera sees them, from the model's edges as the model has
@@ -116,20 +151,20 @@ Eigen::Matrix3d CovarianceOfMiddle(int edge,
                                    const JointState& state,
                                    const NormalEquations& equations) {
   const MovingEdge& mover = state.MoverOf(edge);
-  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(equations.NumColumns(), 3);
-  directions.middleRows<2>(equations.ColumnOf(mover.displacement.data())) =
-      mover.frame.across.transpose();
+  Eigen::MatrixXd of_displacement = Eigen::MatrixXd::Zero(mover.displacement.size(), 3);
+  of_displacement.topRows<2>() = mover.frame.across.transpose();
+  std::vector<NormalEquations::Directions> sums = {
+      {mover.displacement.data(), std::move(of_displacement)}};
   for (const EdgeGroupPart& part : state.groups_of_edge[edge]) {
-    const Eigen::Index column = equations.ColumnOf(state.groups[part.group].move.data());
-    directions.middleRows(column, part.directions.cols()) = part.directions.transpose();
+    sums.push_back({state.groups[part.group].move.data(), part.directions.transpose()});
   }
-  return directions.transpose() * equations.Solve(directions);
+  return equations.CovarianceOfSums(sums);
 }
 
 }  // namespace
 
 JointRefinement SummariseTogether(JointState& state, SolvedTogether& solved) {
-  const NormalEquations equations(*solved.problem, BlocksOf(state, *solved.problem));
+  const NormalEquations equations = EquationsOf(state, *solved.problem);
   const Eigen::MatrixXd by_mode =
       equations.LinearResponse(SystematicModes(equations, state, solved).sparseView());
   const Clusters clusters = FindClusters(equations, state, solved);
@@ -137,38 +172,20 @@ JointRefinement SummariseTogether(JointState& state, SolvedTogether& solved) {
   const Eigen::SparseMatrix<double> information = InformationOf(equations, clusters);
 
   JointRefinement joint;
-  constexpr int kNumParts = kNumCameraParameters + kNumLensParameters;
-  for (const MovingPhotograph& moving : state.moving) {
-    const Eigen::Index own = equations.ColumnOf(moving.own.data());
-    const Eigen::Index lens = equations.ColumnOf(state.lenses[moving.lens].data());
+  joint.photographs.resize(state.moving.size());
+  tbb::parallel_for(size_t{0}, state.moving.size(), [&](size_t p) {
+    const MovingPhotograph& moving = state.moving[p];
+    const Eigen::MatrixXd whole = moving.prior.whole_from_parts;
     // Of sizes known at run time only: products of each fixed size take the compiler seconds.
     Eigen::VectorXd parts(kNumParts);
     parts << moving.own, state.lenses[moving.lens];
-    const auto rows_of_parts = [&](const Eigen::MatrixXd& columns) {
-      Eigen::MatrixXd rows(kNumParts, columns.cols());
-      rows << columns.middleRows<kNumCameraParameters>(own),
-          columns.middleRows<kNumLensParameters>(lens);
-      return rows;
-    };
-    Eigen::MatrixXd columns(equations.NumColumns(), kNumParts);
-    columns << equations.CovarianceColumns(own, kNumCameraParameters),
-        equations.CovarianceColumns(lens, kNumLensParameters);
-    Eigen::MatrixXd covariance = rows_of_parts(columns);
-    const Eigen::MatrixXd shared = rows_of_parts(by_mode);
-    const Eigen::MatrixXd cluster = rows_of_parts(by_cluster);
-    // The normal equations count on residuals of the size that they are given already: the
-    // jackknife measures the same errors again, and adds what it finds beyond that.
-    covariance += shared * shared.transpose() +
-                  CovarianceExcess(cluster * cluster.transpose(),
-                                   columns.transpose() * (information * columns),
-                                   covariance);
-
-    const Eigen::MatrixXd whole = moving.prior.whole_from_parts;
-    joint.photographs.push_back({whole * parts,
-                                 whole * covariance * whole.transpose(),
-                                 moving.num_matched,
-                                 ResidualsOfPhotograph(joint.photographs.size(), state)});
-  }
+    joint.photographs[p] = {
+        whole * parts,
+        whole * CovarianceOfParts(moving, state, equations, by_mode, by_cluster, information) *
+            whole.transpose(),
+        moving.num_matched,
+        ResidualsOfPhotograph(p, state)};
+  });
   for (size_t edge = 0; edge < state.edges.size(); ++edge) {
     joint.group_moves_in_world.push_back(state.GroupMoveOf(static_cast<int>(edge)));
   }

@@ -62,11 +62,12 @@ std::shared_ptr<ceres::ParameterBlockOrdering> AddPriors(const JointOptions& opt
                                                          JointState& state,
                                                          ceres::Problem& problem) {
   // Ceres orders the blocks of a group by their addresses: each group is one array, so that the
-  // order, and with it the rounding, is the same in every run.
+  // order, and with it the rounding, is the same in every run. What many photographs have in common
+  // comes after them: eliminated before them, it would fill the matrix of all.
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   if (problem.HasParameterBlock(state.ground.displacement.data())) {
     problem.AddResidualBlock(new StandardNormalCost<4>, nullptr, state.ground.displacement.data());
-    ordering->AddElementToGroup(state.ground.displacement.data(), 2);
+    ordering->AddElementToGroup(state.ground.displacement.data(), 3);
   }
   for (MovingEdge& edge : state.edges) {
     double* block = edge.displacement.data();
@@ -84,7 +85,7 @@ std::shared_ptr<ceres::ParameterBlockOrdering> AddPriors(const JointOptions& opt
     } else {
       AddLongTailedPrior<2>(widest, block, problem);
     }
-    ordering->AddElementToGroup(block, 1);
+    ordering->AddElementToGroup(block, 2);
   }
   for (size_t i = 0; i < state.ties.size(); ++i) {
     MovingTie& tie = state.ties[i];
@@ -103,7 +104,7 @@ std::shared_ptr<ceres::ParameterBlockOrdering> AddPriors(const JointOptions& opt
   for (MovingPhotograph& moving : state.moving) {
     problem.AddResidualBlock(
         new StandardNormalCost<kNumCameraParameters>, nullptr, moving.own.data());
-    ordering->AddElementToGroup(moving.own.data(), 3);
+    ordering->AddElementToGroup(moving.own.data(), 1);
   }
   for (LensParameters& lens : state.lenses) {
     problem.AddResidualBlock(new StandardNormalCost<kNumLensParameters>, nullptr, lens.data());
@@ -118,7 +119,8 @@ SolvedTogether SolveTogether(const JointOptions& options, JointState& state) {
   SolvedTogether solved = StartProblem(options, state);
   ceres::Solver::Options solver;
   solver.linear_solver_ordering = AddPriors(options, state, *solved.problem);
-  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  // Photographs at two ends of a street share no edge: most of what is left of many is empty.
+  solver.linear_solver_type = ceres::SPARSE_SCHUR;
   solver.max_num_iterations = 6;
   solver.num_threads = 1;
   solver.logging_type = ceres::SILENT;

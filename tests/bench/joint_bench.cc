@@ -142,7 +142,8 @@ BENCHMARK(BM_RefineTogether)
     ->UseRealTime()
     ->Arg(12)
     ->Arg(48)
-    ->Arg(192);
+    ->Arg(192)
+    ->Arg(1000);
 
 }  // namespace
 }  // namespace groundglass
