@@ -40,7 +40,7 @@ std::string FindSizeFault(double width_px, double height_px) {
 }
 
 std::string FindCameraFault(const Camera& camera) {
-  const std::string size_fault = FindSizeFault(camera.width_px, camera.height_px);
+  std::string size_fault = FindSizeFault(camera.width_px, camera.height_px);
   if (!size_fault.empty()) return size_fault;
   for (const double focal_px : {camera.focal_x_px, camera.focal_y_px}) {
     if (focal_px > 0 && std::isfinite(focal_px)) continue;

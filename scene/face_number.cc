@@ -114,7 +114,7 @@ void ApplyFaceNumbers(std::string_view text, PolygonModel& model) {
 
 std::string NameOfFace(const PolygonModel& model, int face) {
   const std::string& name = model.faces[face].name;
-  const std::string number = "face " + std::to_string(FaceNumber(model, face));
+  std::string number = "face " + std::to_string(FaceNumber(model, face));
   if (name.empty()) return number;
   const auto num_alike = std::count_if(model.faces.begin(),
                                        model.faces.end(),

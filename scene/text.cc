@@ -179,7 +179,7 @@ std::string WhyNoNumber(std::string_view word) { return WhyNoNumber(word, '.'); 
 
 std::string WhyNoNumber(std::string_view word, char decimal_mark) {
   if (ParseNumber(word)) return Quote(word) + " is not a finite number";
-  const std::string fault = Quote(word) + " is not a number";
+  std::string fault = Quote(word) + " is not a number";
   const auto written = [&](std::string_view number) {
     std::string text(number);
     std::replace(text.begin(), text.end(), '.', decimal_mark);

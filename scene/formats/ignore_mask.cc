@@ -64,7 +64,8 @@ double Threshold(const Raster<T>& whiteness) {
   };
   if (has_only(1)) return 1;
   if (sizeof(T) > 1 && has_only(255)) return 255;
-  return std::numeric_limits<T>::max() / 2 + 1;
+  constexpr auto kHalf = static_cast<T>(std::numeric_limits<T>::max() / 2);
+  return kHalf + 1;
 }
 
 Image8 ReadWhite(OpenImage& image) {

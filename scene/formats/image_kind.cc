@@ -258,7 +258,7 @@ ImageKind FindImageKind(Bytes bytes, const std::filesystem::path& name) {
     if (!Has(bytes, stranger.at, stranger.text)) continue;
     return {"", stranger.description, stranger.remedy};
   }
-  const ImageKind unmarked = KindOfUnmarked(bytes, extension);
+  ImageKind unmarked = KindOfUnmarked(bytes, extension);
   static const std::set<std::string> raw_extensions = ExtensionsOf("raw");
   if (unmarked.description == kUnknown && raw_extensions.count(extension) > 0) {
     return {"raw", "a camera raw file", ""};

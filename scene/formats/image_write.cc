@@ -24,7 +24,7 @@ void CheckSize(const std::filesystem::path& file, int width, int height) {
 // or end the program (JPEG). `file` names the kind, and is for messages.
 std::vector<unsigned char> EncodePixels(const std::filesystem::path& file,
                                         OIIO::ImageSpec spec,
-                                        OIIO::TypeDesc type,
+                                        const OIIO::TypeDesc& type,
                                         const void* pixels,
                                         const ImageWriteOptions& options) {
   const std::string extension = LowerCase(file.extension().string());
@@ -60,7 +60,7 @@ std::vector<unsigned char> EncodePixels(const std::filesystem::path& file,
 
 void WritePixels(const std::filesystem::path& file,
                  const OIIO::ImageSpec& spec,
-                 OIIO::TypeDesc type,
+                 const OIIO::TypeDesc& type,
                  const void* pixels,
                  const ImageWriteOptions& options = {}) {
   WriteFileAtomically(file, AsText(EncodePixels(file, spec, type, pixels, options)));

@@ -165,7 +165,7 @@ ModelKind KindOfText(std::string_view text) {
   if (text.empty()) return {};
   if (text.front() == '<') return KindOfXml(text);
   if (text.front() == '{' || text.front() == '[') return KindOfJson(text);
-  if (const ModelKind cameras = KindOfCameras(text); !cameras.description.empty()) return cameras;
+  if (ModelKind cameras = KindOfCameras(text); !cameras.description.empty()) return cameras;
   if (text.starts_with("ISO-10303-21")) {
     const bool is_ifc = text.find("'IFC") != std::string_view::npos;
     return {"", is_ifc ? "an IFC file" : "a STEP file", kExportModel};

@@ -48,7 +48,8 @@ class PlyNumbers {
     const double count = Next(type, what);
     const size_t least = is_ascii_ ? 2 : PlyTypeSize(item_type);
     const size_t left = is_ascii_ ? words_.NumBytesLeft() + 1 : left_.size();
-    if (!(count >= 0) || count != std::floor(count) || count > static_cast<double>(left / least)) {
+    const size_t most = left / least;
+    if (!(count >= 0) || count != std::floor(count) || count > static_cast<double>(most)) {
       Fail(what + " has " + FormatNumber(count) +
            " numbers, more than are left in the file: it may be cut short; copy it again, or "
            "export it once more");

@@ -26,7 +26,7 @@ Eigen::Vector3d FlyBy(WindowUnderTest& window, char place) {
     window.Place(place, true);
     std::this_thread::sleep_for(std::chrono::milliseconds(hold_ms));
     window.Place(place, false);
-    const Eigen::Vector3d way = EyeOf(window.Fence()) - start;
+    Eigen::Vector3d way = EyeOf(window.Fence()) - start;
     if (way.norm() > 1e-3) return way;
   }
   return Eigen::Vector3d::Zero();
