@@ -6,6 +6,7 @@
 #include "scene/face_number.h"
 #include "scene/formats/bad_corners.h"
 #include "scene/formats/continued_lines.h"
+#include "scene/formats/mesh_io.h"
 #include "scene/formats/view_io.h"
 #include "scene/model_sigma.h"
 #include "scene/text.h"

@@ -28,5 +28,33 @@ TEST(WhyNoNumber, NoAdviceChangesWhatWasMeant) {
             "written");
 }
 
+TEST(WhyNoNumber, WhatPeopleWriteIsTurnedIntoNumbers) {
+  const auto says = [](const char* word, const char* advice) {
+    EXPECT_EQ(WhyNoNumber(word), std::string("'") + word + "' is not a number; " + advice);
+  };
+  says("22'-2.4\"", "feet and inches are written with decimals: 22.2 ft");
+  says("-74' 10\"", "feet and inches are written with decimals: -74.8333 ft");
+  says("6\"", "feet and inches are written with decimals: 0.5 ft");
+  says("5\u20323", "feet and inches are written with decimals: 5.25 ft");
+  says("54\u00B030'", "write 54.5");
+  says("54\u00B030'36\"", "write 54.51");
+  says("22.2 \u00B1 0.5",
+       "write 22.2 alone, and how sure it is under sigma_position, sigma_lookat and the like");
+  says("22.2?", "write 22.2 alone, without '?'");
+  says("36x24", "write 1.5");
+  says("3\u00D72", "write 1.5");
+  says("1,022.2", "write 1022.2");
+  says("1.234.567,5", "write 1234567.5");
+  says("#REF!", "a spreadsheet's error: look up what was written");
+  says("=B2+1", "a spreadsheet's formula: save the table with its values");
+  says("6.77 m", "write 6.77 alone, if the model is in m too, or else what that is in its unit");
+}
+
+TEST(WhyNoNumber, WhatIsNoneStaysWithoutAdvice) {
+  for (const char* word : {"wide", "0x16", "1,22.5", "12,34,5.6", "-", "x", "'", "+-", "1'2'3"}) {
+    EXPECT_EQ(WhyNoNumber(word), std::string("'") + word + "' is not a number");
+  }
+}
+
 }  // namespace
 }  // namespace groundglass

@@ -177,7 +177,7 @@ TEST(TagTable, FaultsComeInTheOrderOfLinesWithTheirPhotographs) {
                         "without 'ca.'"));
   EXPECT_THAT(check.faults[2],
               HasSubstr("tags.csv:3: s10: key 'y': '9,7 m' is not a number; write 9,7 alone, "
-                        "without 'm'"));
+                        "if the model is in m too, or else what that is in its unit"));
   EXPECT_THAT(check.faults[3], HasSubstr("tags.csv:4: a1: key 'j': 'zwei' is not a number"));
   const auto of_the_sum = std::count_if(
       check.scene.warnings.begin(), check.scene.warnings.end(), [](const std::string& line) {
