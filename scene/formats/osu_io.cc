@@ -4,6 +4,7 @@
 
 #include "scene/error.h"
 #include "scene/face_number.h"
+#include "scene/formats/unit_mention.h"
 #include "scene/formats/view_io.h"
 #include "scene/frames.h"
 #include "scene/mend_faces.h"
@@ -170,6 +171,8 @@ class OsuReader {
     TakeNamesAboveFaces();
     TakeNamesBesideFaces();
     LeaveOutFaultyFaces();
+    const std::string unit_not_read = UnitNotRead(name_, lines_, model_);
+    if (!unit_not_read.empty()) result_.reading.warnings.push_back(unit_not_read);
     return std::move(result_);
   }
 

@@ -112,6 +112,24 @@ INSTANTIATE_TEST_SUITE_P(
         BadModel{"% origin: 40\n3 1 0 0 0 1 0 0 0 1 0 3 1 2 3",
                  "model.osu:1: expected '% origin: LATITUDE LONGITUDE HEIGHT'"}));
 
+TEST(ParseOsu, AUnitInOtherWordsIsTold) {
+  const std::string numbers = "3 1\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3";
+  for (const char* comment :
+       {"% Unit = meters", "% units: m", "% unit m", "% all lengths in metres"}) {
+    EXPECT_THAT(ParseOsu(std::string(comment) + "\n" + numbers, "model.osu").warnings,
+                ElementsAre(testing::AllOf(testing::HasSubstr("model.osu:1: speaks of a unit"),
+                                           testing::HasSubstr("write '% unit: m'"))))
+        << comment;
+  }
+  for (const char* comment :
+       {"% unit: m", "% units: ft", "% drawn in 1988", "% door in the m wing", "% in", "%"}) {
+    EXPECT_THAT(ParseOsu(std::string(comment) + "\n" + numbers, "model.osu").warnings,
+                testing::IsEmpty())
+        << comment;
+  }
+  EXPECT_THAT(ParseOsu(numbers + " % wall in metres", "model.osu").warnings, testing::IsEmpty());
+}
+
 TEST(FindOsuFaults, TellsEveryFaultyFace) {
   const std::vector<std::string> faults =
       FindOsuFaults("4 3\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 1 2 9\n3 1 2 3\n3 1 1 2\n", "m.osu");
