@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "scene/formats/csv.h"
 #include "scene/formats/image_kind.h"
+#include "scene/formats/tag_columns.h"
 #include "scene/formats/view_io.h"
 #include "scene/formats/view_pairs.h"
 #include "scene/frames.h"
@@ -95,7 +96,12 @@ class TableReader {
     std::erase_if(absent, [&](const std::string& one) {
       return std::find(names.begin(), names.end(), one) != names.end();
     });
-    if (const auto meant = name.empty() ? std::nullopt : FindNearest(name, absent)) {
+    if (const std::string advice = AdviceOnColumn(name, absent); !advice.empty()) {
+      Fail(line, "unknown column " + Quote(name) + "; " + advice);
+      return;
+    }
+    // One letter is near to every other.
+    if (const auto meant = name.size() < 2 ? std::nullopt : FindNearest(name, absent)) {
       Fail(line, "unknown column " + Quote(name) + "; did you mean " + Quote(*meant) + "?");
       return;
     }
@@ -110,13 +116,15 @@ class TableReader {
     const size_t faults_before = table_.faults.size();
     const std::vector<std::string> known = KnownColumns();
     const auto num_known = std::count_if(names.begin(), names.end(), [&](const auto& name) {
-      return std::find(known.begin(), known.end(), name) != known.end();
+      return std::find(known.begin(), known.end(), name) != known.end() ||
+             !AdviceOnColumn(name, known).empty();
     });
     // One may be a word of a title.
     if (num_known < 2) {
       Fail(line,
            "expected the first line to name the columns, parted by commas, semicolons or tabs: "
-           "image,x,y,z,i,j,k,a,v");
+           "image,x,y,z,i,j,k,a,v; it begins with " +
+               Quote(names.front()) + (names.size() > 1 ? " and " + Quote(names[1]) : ""));
       return false;
     }
     for (size_t i = 0; i < names.size(); ++i) {
@@ -175,6 +183,15 @@ class TableReader {
       faults.push_back(
           Error(file_, csv_row.line, (image.empty() ? "" : row.name + ": ") + message).what());
     };
+    const bool has_digit = std::any_of(fields.begin(), fields.end(), [](const std::string& field) {
+      return field.find_first_of("0123456789") != std::string::npos;
+    });
+    if (image.empty() && csv_row.fault.empty() && !has_digit) {
+      table_.warnings.push_back(
+          Error(file_, csv_row.line, "left out: it names no photograph and gives no number")
+              .what());
+      return;
+    }
     if (image.empty()) {
       row.name = file_.filename().string() + ":" + std::to_string(csv_row.line);
       fail("column 'image' is empty");

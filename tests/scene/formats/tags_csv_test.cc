@@ -161,6 +161,45 @@ TEST(TagTable, WithoutAHeaderOneFaultSaysSo) {
   }
 }
 
+TEST(TagTable, ColumnsOfOtherNamesAreToldApart) {
+  const TableFolder folder(
+      "Photo,E,N,H,i,j,k,a,FOV\ns2,5,20,2,5,0,2,1.5,40\ns10,5,20,2,5,0,2,1.5,40\n");
+  const std::vector<std::string> faults = CheckScene(folder.path()).faults;
+  EXPECT_THAT(faults, Contains(HasSubstr("unknown column 'photo'; call it 'image'")));
+  EXPECT_THAT(faults, Contains(HasSubstr("unknown column 'e'; call it 'x'")));
+  EXPECT_THAT(faults,
+              Contains(HasSubstr("unknown column 'n'; call it 'y', with the other sign: y counts "
+                                 "to the south")));
+  EXPECT_THAT(faults, Contains(HasSubstr("unknown column 'h'; call it 'z'")));
+  EXPECT_THAT(faults, Contains(HasSubstr("unknown column 'fov'; call it 'v', in degrees")));
+  const TableFolder with_units("image,X (m),Y (m),Z [m],i,j,k,a,v (deg)\ns2,5,20,2,5,0,2,1.5,40\n");
+  EXPECT_THAT(CheckScene(with_units.path()).faults,
+              Contains(HasSubstr("unknown column 'z [m]'; write 'z' alone; the unit is the "
+                                 "model's, which its file says (% unit: m), or --unit")));
+  const TableFolder titled("Hall, surveyed 1988\nimage,x,y,z,i,j,k,a,v\n");
+  EXPECT_THAT(CheckScene(titled.path()).faults,
+              Contains(HasSubstr("it begins with 'hall' and 'surveyed 1988'")));
+}
+
+TEST(TagTable, AColumnBesideOneOfItsMeaningIsARemark) {
+  const TableFolder folder("image,name,x,y,z,i,j,k,a,v,n\ns2,gate,5,20,2,5,0,2,1.5,40,7\n");
+  const SceneCheck check = CheckScene(folder.path());
+  EXPECT_THAT(check.faults, IsEmpty());
+  EXPECT_THAT(check.scene.warnings, Contains(HasSubstr("unknown column 'name' is not read")));
+}
+
+TEST(TagTable, ALineOfUnitsIsLeftOut) {
+  const TableFolder folder(
+      "image,x,y,z,i,j,k,a,v\n,ft,ft,ft,ft,ft,ft,,deg\n"
+      "s2,5,20,2,5,0,2,1.5,40\ns10,5,20,2,5,0,2,1.5,40\n");
+  const SceneCheck check = CheckScene(folder.path());
+  EXPECT_THAT(check.faults, IsEmpty());
+  EXPECT_EQ(check.scene.photographs.size(), 2u);
+  EXPECT_THAT(check.scene.warnings,
+              testing::ElementsAre(
+                  HasSubstr("tags.csv:2: left out: it names no photograph and gives no number")));
+}
+
 TEST(TagTable, FaultsComeInTheOrderOfLinesWithTheirPhotographs) {
   const TableFolder folder(
       "image;x;y;z;i;j;k;a;v\n"
