@@ -4,6 +4,7 @@
 #include "scene/error.h"
 #include "scene/formats/image_kind.h"
 #include "scene/formats/image_paths.h"
+#include "scene/formats/open_image.h"
 #include "scene/formats/scene_reader.h"
 #include "scene/formats/text_encoding.h"
 #include "scene/text.h"
@@ -24,6 +25,27 @@ bool HasControlCharacter(const std::string& text) {
 }
 
 }  // namespace
+
+std::string WhyNothingIsSeen(const Image8& srgb8, const std::filesystem::path& file) {
+  constexpr double kTellingShare = 0.99;
+  size_t num_black = 0;
+  size_t num_white = 0;
+  for (size_t i = 0; i + 2 < srgb8.values.size(); i += 3) {
+    const auto [darkest, brightest] =
+        std::minmax({srgb8.values[i], srgb8.values[i + 1], srgb8.values[i + 2]});
+    num_black += brightest == 0;
+    num_white += darkest == 255;
+  }
+  const double needed = kTellingShare * static_cast<double>(srgb8.values.size()) / 3;
+  const bool is_white = static_cast<double>(num_white) >= needed;
+  if (srgb8.values.empty() || (!is_white && static_cast<double>(num_black) < needed)) return "";
+  std::string why = std::string("is all but ") + (is_white ? "white" : "black") +
+                    ", so that nothing is to be seen in it; ";
+  if (is_white && OpenImage(file).spec().format.is_floating_point()) {
+    return why + "floats count from 0 to 1 here: divide them by 255, or by how far they run";
+  }
+  return why + "put the photograph itself there, or save it again from where it came from";
+}
 
 FilesByStem SceneReader::ListImages(const char* subfolder) {
   const fs::path folder = folder_ / subfolder;

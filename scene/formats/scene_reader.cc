@@ -71,6 +71,7 @@ SceneReading SceneReader::Read(bool decode_pictures) {
     return {std::move(result_), std::move(scene_faults_), {}};
   }
   ReadTheModel();
+  TellWhatIsNotRead();
   const FilesByStem images = ListImages("images");
   ReadTags(images);
   ReadCalibration();
@@ -78,6 +79,9 @@ SceneReading SceneReader::Read(bool decode_pictures) {
   ShareMeasuredDistortion();
   SortTableFaults();
   TellWhatWasTaken();
+  for (const char* subfolder : {"images", "views", "masks", "faces"}) {
+    TellOddEntries(folder_ / subfolder);
+  }
   AddMasks("masks", &Photograph::mask_file);
   AddMasks("faces", &Photograph::faces_file);
   if (decode_pictures) DecodeAll();
@@ -111,6 +115,12 @@ std::string SceneReader::OtherModels() const {
     return "; " + file.filename().string() +
            " is of a kind that is not read: export it as one of these from the program that made "
            "it";
+  }
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error)) {
+    if (entry.path().stem() != "model" || entry.exists(error)) continue;
+    return "; " + entry.path().filename().string() +
+           " is a link that leads to nothing: put the model itself there";
   }
   std::string list;
   for (const fs::path& file : ListFiles(folder_)) {
@@ -247,14 +257,6 @@ void SceneReader::Match(const FilesByStem& images) {
 }
 
 void SceneReader::AddMasks(const char* subfolder, std::optional<fs::path> Photograph::*member) {
-  std::error_code failure;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / subfolder, failure)) {
-    if (entry.is_directory(failure) && IsImageExtension(entry.path().extension().string())) {
-      Warn(entry.path(), "is a folder; put the mask itself there");
-    } else if (entry.is_symlink(failure) && !entry.exists(failure)) {
-      Warn(entry.path(), "is a link that leads to no file; put the mask itself there");
-    }
-  }
   std::vector<std::string> names;
   std::vector<fs::path> files;
   for (const auto& [name, file] : ListImages(subfolder)) {
@@ -308,6 +310,7 @@ void SceneReader::DecodeAll() {
   const std::vector<Photograph>& photographs = result_.scene.photographs;
   const PolygonModel& model = result_.scene.model;
   std::vector<std::vector<std::string>> faults(photographs.size());
+  std::vector<std::string> unseen(photographs.size());
   tbb::parallel_for(size_t{0}, photographs.size(), [&](size_t i) {
     const auto attempt = [&](const fs::path& file, auto read) {
       if (not_images_.count(file) > 0) return;
@@ -318,7 +321,9 @@ void SceneReader::DecodeAll() {
       }
     };
     const Photograph& photograph = photographs[i];
-    attempt(photograph.image_file, [&] { ReadSrgb8(photograph.image_file); });
+    attempt(photograph.image_file, [&] {
+      unseen[i] = WhyNothingIsSeen(ReadSrgb8(photograph.image_file), photograph.image_file);
+    });
     if (photograph.mask_file) {
       attempt(*photograph.mask_file,
               [&] { ReadIgnoreMask(*photograph.mask_file, photograph.size); });
@@ -332,6 +337,7 @@ void SceneReader::DecodeAll() {
   });
   for (size_t i = 0; i < photographs.size(); ++i) {
     for (const std::string& line : faults[i]) FaultOf(photographs[i].name, line);
+    if (!unseen[i].empty()) Warn(photographs[i].image_file, unseen[i]);
   }
   DecodeUntagged();
 }

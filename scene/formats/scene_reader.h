@@ -33,6 +33,9 @@ struct NaturalOrder {
 };
 using FilesByStem = std::map<std::string, std::filesystem::path, NaturalOrder>;
 
+// Why a picture that can be read shows nothing, with what to do; empty if it shows something.
+std::string WhyNothingIsSeen(const Image8& srgb8, const std::filesystem::path& file);
+
 struct FoundTag {
   ViewTag tag;  // of cameras that are given whole; else `text` says it
   std::filesystem::path view_file;
@@ -74,6 +77,13 @@ class SceneReader {
   void Warn(const std::filesystem::path& file, const std::string& message) {
     result_.scene.warnings.push_back(Error(file, message).what());
   }
+
+  // Why nothing of a folder or table of the scene is read: a link that leads nowhere, no
+  // permission, another name. Empty: nothing hinders, or there is none.
+  std::string WhyNotRead(const std::string& name) const;
+  void TellWhatIsNotRead();
+  // What is no file in a folder of files, and in its folders; told once the tags are known.
+  void TellOddEntries(const std::filesystem::path& folder);
 
   void ReadTheModel();
   // The images of a folder and of those in it, by the photographs' names (image_paths.h), and what

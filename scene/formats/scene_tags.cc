@@ -57,7 +57,7 @@ void SceneReader::ReadTags(const FilesByStem& images) {
     ReadTable(table, images);
   } else if (options_.views) {
     Fault(Error(*options_.views, kCamerasExpected).what());
-  } else if (!fs::is_directory(folder_ / "calibration", error)) {
+  } else if (!fs::is_directory(folder_ / "calibration", error) && WhyNotRead("views").empty()) {
     Fault(Error(folder_,
                 std::string("no tags; expected a folder views/ with .view files, or tags.csv. ") +
                     kHowToBegin)
@@ -73,7 +73,7 @@ void SceneReader::ReadViewFiles(const fs::path& views) {
     }
     const std::string name = NameInUtf8(file, file.stem().string());
     try {
-      const std::string text = ReadTextFile(file);
+      const std::string text = ReadViewText(file);
       known_names_[name] = file;
       const std::vector<std::string> faults = ReadSomePairs(text, file).faults;
       for (const std::string& fault : faults) FaultOf(name, fault);

@@ -3,6 +3,7 @@
 #include "scene/formats/view_io.h"
 
 #include "scene/error.h"
+#include "scene/formats/image_kind.h"
 #include "scene/formats/text_encoding.h"
 #include "scene/formats/view_pairs.h"
 #include "scene/text.h"
@@ -43,7 +44,17 @@ ViewTag ParseView(const std::string& text, const std::filesystem::path& name) {
   return reading.tag;
 }
 
-ViewTag ReadView(const std::filesystem::path& file) { return ParseView(ReadTextFile(file), file); }
+std::string ReadViewText(const std::filesystem::path& file) {
+  std::string text = ReadTextFile(file);
+  if (text.find('\0') == std::string::npos && !text.starts_with("<")) return text;
+  const ImageKind kind = FindImageKind(file);
+  throw Error(file,
+              "this is " + kind.description +
+                  " and no view file; expected text: x, y, z, i, j, k, "
+                  "a and v, each with its value");
+}
+
+ViewTag ReadView(const std::filesystem::path& file) { return ParseView(ReadViewText(file), file); }
 
 std::vector<std::string> FindViewFaults(const std::string& text,
                                         const std::filesystem::path& name) {

@@ -40,6 +40,8 @@ struct ViewReading {
 // faults.
 ViewReading ReadPairs(const std::string& text, const std::filesystem::path& name);
 // The same of a file that need not have all the keys that make a camera.
+// A view file's text; throws Error that says what a file is that holds no text.
+std::string ReadViewText(const std::filesystem::path& file);
 ViewReading ReadSomePairs(const std::string& text, const std::filesystem::path& name);
 
 }  // namespace groundglass
