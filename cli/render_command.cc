@@ -2,6 +2,7 @@
 // Part of Groundglass.
 #include "cli/commands.h"
 #include "cli/elevation_arguments.h"
+#include "cli/empty_view.h"
 #include "cli/model_arguments.h"
 #include "cli/montage_arguments.h"
 #include "cli/option_range.h"
@@ -155,12 +156,16 @@ int RenderStill(const RenderArguments& arguments) {
   const ViewTag tag = ReadView(arguments.view_file);
   const ImageSize size = ChooseSize(arguments, tag.aspect);
   const TexturedModelReading reading = ReadModelToRender(arguments);
+  const Camera camera = CameraFromTag(tag, size.width, size.height);
   Renderer renderer(reading.textured);
   if (!arguments.common.dry_run) {
-    WriteSrgb8(arguments.out,
-               renderer.Render(CameraFromTag(tag, size.width, size.height), arguments.render));
+    WriteSrgb8(arguments.out, renderer.Render(camera, arguments.render));
   }
-  Report(arguments, size, 1, Together(reading.warnings, renderer.Warnings()));
+  std::vector<std::string> warnings = Together(reading.warnings, renderer.Warnings());
+  const std::string why_nothing =
+      WhyNothingIsDrawn(reading.textured.model, camera, arguments.view_file);
+  if (!why_nothing.empty()) warnings.push_back(why_nothing);
+  Report(arguments, size, 1, warnings);
   return kExitDone;
 }
 

@@ -175,6 +175,26 @@ TEST(Render, AModelWithoutItsPictureIsGreyAndSaysSo) {
   EXPECT_TRUE(fs::exists(work / "wall.png"));
 }
 
+TEST(Render, AViewThatShowsNothingOfTheModelIsTold) {
+  const TemporaryFolder work;
+  const auto render = [&](const std::string& view) {
+    WriteAll(work / "n.view", view + " a 1.5 v 50\n");
+    return RunProgram({"render",
+                       kBrick + "/model.osu",
+                       "--view",
+                       (work / "n.view").string(),
+                       "--width",
+                       "90",
+                       "-o",
+                       (work / "n.png").string()});
+  };
+  const ProgramRun away = render("x 20 y 200 z 5 i 20 j 400 k 5");
+  EXPECT_EQ(away.status, 0) << away.err;
+  EXPECT_THAT(away.err, HasSubstr("n.view: shows nothing of the model"));
+  EXPECT_THAT(render("x 20 y 1e8 z 5 i 20 j 0 k 5").err, HasSubstr("shows nothing of the model"));
+  EXPECT_THAT(render("x 20 y 200 z 5 i 20 j 0 k 5").err, testing::Not(HasSubstr("shows nothing")));
+}
+
 TEST(Check, SaysHowTheModelWasReadAndWhereTheCamerasStand) {
   const ProgramRun run = RunProgram({"check", kBrick});
   EXPECT_EQ(run.status, 0) << run.err;
