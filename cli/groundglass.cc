@@ -10,6 +10,7 @@
 #include "cli/suggestion.h"
 #include "scene/error.h"
 #include "scene/formats/unfinished_files.h"
+#include "scene/what_failed.h"
 
 #include <algorithm>
 #include <csignal>
@@ -100,7 +101,7 @@ int RunGroundglass(int argc, char** argv) {
   } catch (const LeftOut& error) {
     return Fail(kExitWrongUsage, error.what(), as_json);
   } catch (const std::exception& error) {
-    return Fail(kExitWrongInput, error.what(), as_json);
+    return Fail(kExitWrongInput, WhatFailed(error), as_json);
   }
   // What was printed may be what somebody asked for, and lost.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

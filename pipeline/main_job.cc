@@ -11,6 +11,7 @@
 #include "scene/formats/atomic_file.h"
 #include "scene/formats/output_folder.h"
 #include "scene/formats/output_stages.h"
+#include "scene/what_failed.h"
 #include "viewer/overlay.h"
 
 #include <algorithm>
@@ -68,7 +69,7 @@ class Attempts {
     try {
       work();
     } catch (const std::exception& error) {
-      failures_.push_back(std::string(stage) + ": " + error.what());
+      failures_.push_back(std::string(stage) + ": " + WhatFailed(error));
       observer_.Tell(failures_.back());
     }
   }
