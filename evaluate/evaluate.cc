@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 
 namespace groundglass {
 namespace {
@@ -107,9 +108,17 @@ void EvaluateMasks(const fs::path& found,
   for (const NamedCamera& camera : truth.cameras) {
     const fs::path file = found / "faces" / (camera.name + ".png");
     if (!fs::exists(file)) continue;
-    AddMaskOverlaps(KnownLabelsFromNumbers(
-                        model, ReadLabels(truth.masks_model_folder / (camera.name + ".png"))),
-                    KnownLabelsFromNumbers(model, ReadLabels(file)),
+    const Image16 true_numbers = ReadLabels(truth.masks_model_folder / (camera.name + ".png"));
+    const Image16 numbers = ReadLabels(file);
+    if (numbers.width != true_numbers.width || numbers.height != true_numbers.height) {
+      throw Error(file,
+                  "is " + std::to_string(numbers.width) + " x " + std::to_string(numbers.height) +
+                      " pixels, and its truth " + std::to_string(true_numbers.width) + " x " +
+                      std::to_string(true_numbers.height) +
+                      "; judge a run on photographs of the size that the truth has");
+    }
+    AddMaskOverlaps(KnownLabelsFromNumbers(model, true_numbers),
+                    KnownLabelsFromNumbers(model, numbers),
                     evaluation.faces);
   }
 }

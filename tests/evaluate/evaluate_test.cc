@@ -3,6 +3,7 @@
 #include "evaluate/evaluate.h"
 
 #include "scene/error.h"
+#include "scene/formats/image_io.h"
 #include "scene/formats/osu_io.h"
 #include "scene/formats/textured_model_io.h"
 #include "tests/support/brick_scene.h"
@@ -49,6 +50,17 @@ TEST(Evaluate, AFolderWithoutCamerasIsAnError) {
   const Truth truth = ReadTruth(kBrick / "truth");
   EXPECT_THAT([&] { ReadFoundCameras(kBrick / "images", truth); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("no cameras here; expected")));
+}
+
+TEST(Evaluate, AMaskOfAnotherSizeIsNamed) {
+  const TemporaryFolder folder;
+  std::filesystem::copy(kBrick / "truth" / "cameras", folder.path());
+  std::filesystem::create_directories(folder / "faces");
+  WriteLabels(folder / "faces" / "s1.png", Image16(6, 4, 1));
+  EXPECT_THAT([&] { Evaluate(folder.path(), ReadTruth(kBrick / "truth"), BrickModel()); },
+              testing::ThrowsMessage<Error>(
+                  testing::AllOf(testing::HasSubstr("s1.png"),
+                                 testing::HasSubstr("is 6 x 4 pixels, and its truth 1200"))));
 }
 
 // A textured model whose cameras are kept elsewhere; without texture it covers nothing.
