@@ -85,6 +85,25 @@ class TableReader {
     return Has(column) && !fields[columns_.at(column)].empty();
   }
 
+  // The columns that a table has to have.
+  static std::vector<std::string> RequiredColumns(bool has_angles, bool is_geodetic) {
+    std::vector<std::string> required = {"image", "a", "v"};
+    const auto add = [&](std::initializer_list<const char*> columns) {
+      required.insert(required.end(), columns.begin(), columns.end());
+    };
+    if (has_angles) {
+      add({"yaw", "pitch"});
+    } else {
+      add({"i", "j", "k"});
+    }
+    if (is_geodetic) {
+      add({"lat", "lon", "height"});
+    } else {
+      add({"x", "y", "z"});
+    }
+    return required;
+  }
+
   // A remark of a spreadsheet's own spoils nothing; a known column that is mistyped would be
   // missed.
   void TellUnknownColumn(int line,
@@ -97,7 +116,26 @@ class TableReader {
       return std::find(names.begin(), names.end(), one) != names.end();
     });
     if (const std::string advice = AdviceOnColumn(name, absent); !advice.empty()) {
-      Fail(line, "unknown column " + Quote(name) + "; " + advice);
+      // A compass's bearing beside look-at points may be a remark.
+      const auto has_any = [&](std::initializer_list<const char*> columns) {
+        return std::any_of(columns.begin(), columns.end(), [&](const char* one) {
+          return std::find(names.begin(), names.end(), one) != names.end();
+        });
+      };
+      std::vector<std::string> needed =
+          RequiredColumns(!has_any({"i", "j", "k"}), has_any({"lat", "lon"}));
+      std::erase_if(needed, [&](const std::string& one) {
+        return std::find(absent.begin(), absent.end(), one) == absent.end();
+      });
+      if (!AdviceOnColumn(name, needed).empty()) {
+        Fail(line, "unknown column " + Quote(name) + "; " + advice);
+      } else {
+        table_.warnings.push_back(Error(file_,
+                                        line,
+                                        "unknown column " + Quote(name) +
+                                            " is not read; if it is what is meant, " + advice)
+                                      .what());
+      }
       return;
     }
     // One letter is near to every other.
@@ -141,33 +179,22 @@ class TableReader {
       table_.warnings.push_back(
           Error(file_, line, "column 'height' is not read without lat and lon").what());
     }
-    const auto require = [&](std::initializer_list<const char*> required) {
-      for (const char* name : required) {
-        if (!Has(name)) Fail(line, "column " + Quote(name) + " is missing");
-      }
-    };
+    for (const std::string& name : RequiredColumns(has_angles_, is_geodetic_)) {
+      if (!Has(name)) Fail(line, "column " + Quote(name) + " is missing");
+    }
     const auto refuse = [&](std::initializer_list<const char*> refused, const char* other) {
       for (const char* name : refused) {
         if (Has(name)) Fail(line, "column " + Quote(name) + " says the same as " + other);
       }
     };
-    require({"image", "a", "v"});
-    if (has_angles_) {
-      require({"yaw", "pitch"});
-      refuse({"i", "j", "k"}, "yaw,pitch");
-    } else {
-      require({"i", "j", "k"});
-    }
+    if (has_angles_) refuse({"i", "j", "k"}, "yaw,pitch");
     if (is_geodetic_) {
-      require({"lat", "lon", "height"});
       refuse({"x", "y", "z"}, "lat,lon,height");
       if (!model_.georeference) {
         Fail(line,
              "lat,lon,height need a model that says where it stands; expected a comment "
              "'% origin: LATITUDE LONGITUDE HEIGHT' in it");
       }
-    } else {
-      require({"x", "y", "z"});
     }
     return table_.faults.size() == faults_before;
   }

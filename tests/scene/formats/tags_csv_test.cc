@@ -188,6 +188,18 @@ TEST(TagTable, AColumnBesideOneOfItsMeaningIsARemark) {
   EXPECT_THAT(check.scene.warnings, Contains(HasSubstr("unknown column 'name' is not read")));
 }
 
+TEST(TagTable, AColumnThatMightBeMeantStopsNothingWhereAllIsThere) {
+  const TableFolder folder(
+      "image,x,y,z,i,j,k,a,v,heading,tilt,label\n"
+      "s2,5,20,2,5,0,2,1.5,40,45,3,porch\ns10,5,20,2,5,0,2,1.5,40,45,3,porch\n");
+  const SceneCheck check = CheckScene(folder.path());
+  EXPECT_THAT(check.faults, IsEmpty());
+  EXPECT_EQ(check.scene.photographs.size(), 2u);
+  EXPECT_THAT(check.scene.warnings,
+              Contains(HasSubstr("tags.csv:1: unknown column 'heading' is not read; if it is what "
+                                 "is meant, call it 'yaw'")));
+}
+
 TEST(TagTable, ALineOfUnitsIsLeftOut) {
   const TableFolder folder(
       "image,x,y,z,i,j,k,a,v\n,ft,ft,ft,ft,ft,ft,,deg\n"
